@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string_view>
+
+namespace roomcut {
+
+/// A file written beside its final place (same folder, ".<name>.<pid>.tmp") and moved there only when complete: a
+/// process killed at any moment leaves the final name untouched. Left-overs of dead processes are removed by the
+/// next writer of the same name. The destructor removes the temporary file when commit() was not reached.
+class AtomicFile {
+ public:
+  /// Creates the parent folder when missing. Throws StageError(kCannotWrite).
+  explicit AtomicFile(std::filesystem::path final_path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  const std::filesystem::path& temporary_path() const { return temporary_; }
+  const std::filesystem::path& final_path() const { return final_; }
+
+  /// fsync of the file, rename, fsync of the folder. With `keep_time` the file takes over the modification time of the
+  /// one that it replaces: Make then sees nothing new. Throws StageError(kCannotWrite).
+  void commit(bool keep_time = false);
+
+ private:
+  std::filesystem::path final_;
+  std::filesystem::path temporary_;
+  bool committed_ = false;
+};
+
+/// Writes `text` through an AtomicFile; an existing file with the same bytes is left as it is. Returns whether it wrote.
+bool write_text_file(const std::filesystem::path& path, std::string_view text);
+
+/// The whole file. Throws StageError(kArtefactMissing) when it cannot be read.
+std::string read_text_file(const std::filesystem::path& path);
+
+}  // namespace roomcut

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+namespace roomcut {
+
+/// Type and version of an artefact: one constant each, so that they cannot be mixed up.
+/// A reader takes the same major and a minor not above its own. Pages: schemas/<name>.md.
+struct ArtefactType {
+  const char* name;
+  int major;
+  int minor;
+};
+
+namespace artefacts {
+inline constexpr ArtefactType kCloud{"cloud", 1, 0};
+inline constexpr ArtefactType kSlices{"slices", 1, 0};
+inline constexpr ArtefactType kHough{"hough", 1, 0};
+inline constexpr ArtefactType kWallLines{"wall_lines", 1, 0};
+inline constexpr ArtefactType kCells{"cells", 1, 0};
+inline constexpr ArtefactType kWeights{"weights", 1, 0};
+inline constexpr ArtefactType kDataTerms{"data_terms", 1, 0};
+inline constexpr ArtefactType kLabels{"labels", 1, 0};
+inline constexpr ArtefactType kSummary{"summary", 1, 0};
+inline constexpr ArtefactType kScores{"scores", 1, 0};
+inline constexpr ArtefactType kScene{"scene", 1, 0};
+}  // namespace artefacts
+
+}  // namespace roomcut
