@@ -2,7 +2,7 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
+#include <string>
 #include <string_view>
 
 namespace roomcut {
@@ -21,6 +21,9 @@ class AtomicFile {
   const std::filesystem::path& temporary_path() const { return temporary_; }
   const std::filesystem::path& final_path() const { return final_; }
 
+  /// Appends `bytes` to the temporary file. Throws StageError(kCannotWrite).
+  void write(std::string_view bytes) const;
+
   /// fsync of the file, rename, fsync of the folder. With `keep_time` the file takes over the modification time of the
   /// one that it replaces: Make then sees nothing new. Throws StageError(kCannotWrite).
   void commit(bool keep_time = false);
@@ -36,5 +39,8 @@ bool write_text_file(const std::filesystem::path& path, std::string_view text);
 
 /// The whole file. Throws StageError(kArtefactMissing) when it cannot be read.
 std::string read_text_file(const std::filesystem::path& path);
+
+/// Removes the temporary files of this process. Async-signal-safe: for the handlers of SIGINT and SIGTERM.
+void remove_temporary_files() noexcept;
 
 }  // namespace roomcut

@@ -48,6 +48,23 @@ hid_t file_type();
 template <class T>
 hid_t memory_type();
 
+#define ROOMCUT_H5_TYPE(T)  \
+  template <>               \
+  hid_t file_type<T>();     \
+  template <>               \
+  hid_t memory_type<T>();
+ROOMCUT_H5_TYPE(std::int8_t)
+ROOMCUT_H5_TYPE(std::uint8_t)
+ROOMCUT_H5_TYPE(std::int16_t)
+ROOMCUT_H5_TYPE(std::uint16_t)
+ROOMCUT_H5_TYPE(std::int32_t)
+ROOMCUT_H5_TYPE(std::uint32_t)
+ROOMCUT_H5_TYPE(std::int64_t)
+ROOMCUT_H5_TYPE(std::uint64_t)
+ROOMCUT_H5_TYPE(float)
+ROOMCUT_H5_TYPE(double)
+#undef ROOMCUT_H5_TYPE
+
 using Shape = std::vector<std::uint64_t>;  ///< e.g. {N} or {N, 3}; row-major
 
 }  // namespace h5
@@ -128,6 +145,9 @@ class H5Reader {
   }
   h5::Shape shape(const std::string& path) const { return checked_shape(path, {}); }
   bool exists(const std::string& path) const;
+  /// Where the dataset's bytes begin in the file: contiguous, little-endian, never compressed, so that a reader of a big
+  /// cloud may use pread from several threads. Throws kArtefactDamaged when the dataset is chunked or has no bytes.
+  std::uint64_t contiguous_offset(const std::string& path) const;
   double attribute_double(const std::string& object_path, const std::string& name) const;
   std::int64_t attribute_int(const std::string& object_path, const std::string& name) const;
   std::string attribute_string(const std::string& object_path, const std::string& name) const;
@@ -145,6 +165,10 @@ class H5Reader {
   void read_raw(const std::string& path, void* out, hid_t memory_type, std::uint64_t first, std::uint64_t count) const;
   std::unique_ptr<State> state_;
 };
+
+/// The payload digest of an HDF5 artefact, computed again from everything that the file holds except /provenance.
+/// Reads all data. Errors as H5Reader.
+std::string recompute_payload_sha256(const std::filesystem::path& path);
 
 /// The payload digest stored in an artefact of any type (HDF5, or JSON with a `provenance` member), its type and
 /// version, without reading the data; for any other file the digest of its bytes, with type "".
