@@ -77,10 +77,12 @@ struct DataTerms {
   std::vector<float> kappa;     ///< share of rays with an odd number of crossings, 0 … 1
   std::vector<float> vertical;  ///< nearest permanent face straight up and down: +1 empty … -1 solid
   std::vector<float> around;    ///< the same along the rays: +1 empty … -1 solid
+  std::vector<float> winding;   ///< mean over the rays of the signed crossings (leaving empty space +, entering it -): 1 inside, 0 outside
+  std::vector<float> surface_m2;  ///< covered area of the cell's own faces, + where it faces the cell, - where it turns its back [m^2]
   std::vector<float> observed;  ///< share of the rays that end on a seen face: 0 = nothing is known of the cell
   std::vector<float> beta;      ///< probability that the cell is empty, 0 … 1
-  std::vector<double> d_empty;  ///< cost of the label empty: V (1 - beta) [m^3]
-  std::vector<double> d_solid;  ///< cost of the label solid: V beta [m^3]
+  std::vector<double> d_empty;  ///< cost of the label empty: V (1 - beta) + what its own faces' backs add [m^3]
+  std::vector<double> d_solid;  ///< cost of the label solid: V beta + what its own faces' fronts add [m^3]
 };
 
 enum class Label : std::uint8_t { kSolid = 0, kEmpty = 1 };
