@@ -11,10 +11,10 @@ namespace roomcut {
 /// "1.0"
 std::string version_text(ArtefactType type);
 
-/// Refuses another type (kArtefactType), another major or a newer minor version (kArtefactVersion), naming both; an
-/// empty `artefact` or a version that is not "major.minor" is kArtefactDamaged.
-void check_type_and_version(const std::filesystem::path& path, const std::string& artefact, const std::string& version,
-                            ArtefactType expected);
+/// Refuses another type (kArtefactType), another major or a newer minor version (kArtefactVersion), naming
+/// both; an empty `artefact` or a version that is not "major.minor" is kArtefactDamaged.
+void check_type_and_version(const std::filesystem::path& path, const std::string& artefact,
+                            const std::string& version, ArtefactType expected);
 
 /// The payload digest that the file at `path` states; empty when there is no such file or it states none.
 std::string stated_payload(const std::filesystem::path& path);

@@ -7,9 +7,10 @@
 
 namespace roomcut {
 
-/// A file written beside its final place (same folder, ".<name>.<pid>.tmp") and moved there only when complete: a
-/// process killed at any moment leaves the final name untouched. Left-overs of dead processes are removed by the
-/// next writer of the same name. The destructor removes the temporary file when commit() was not reached.
+/// A file written beside its final place (same folder, ".<name>.<pid>.tmp") and moved there only when
+/// complete: a process killed at any moment leaves the final name untouched. Left-overs of dead processes are
+/// removed by the next writer of the same name. The destructor removes the temporary file when commit() was
+/// not reached.
 class AtomicFile {
  public:
   /// Creates the parent folder when missing. Throws StageError(kCannotWrite).
@@ -24,8 +25,8 @@ class AtomicFile {
   /// Appends `bytes` to the temporary file. Throws StageError(kCannotWrite).
   void write(std::string_view bytes) const;
 
-  /// fsync of the file, rename, fsync of the folder. With `keep_time` the file takes over the modification time of the
-  /// one that it replaces: Make then sees nothing new. Throws StageError(kCannotWrite).
+  /// fsync of the file, rename, fsync of the folder. With `keep_time` the file takes over the modification
+  /// time of the one that it replaces: Make then sees nothing new. Throws StageError(kCannotWrite).
   void commit(bool keep_time = false);
 
  private:
@@ -34,7 +35,8 @@ class AtomicFile {
   bool committed_ = false;
 };
 
-/// Writes `text` through an AtomicFile; an existing file with the same bytes is left as it is. Returns whether it wrote.
+/// Writes `text` through an AtomicFile; an existing file with the same bytes is left as it is. Returns
+/// whether it wrote.
 bool write_text_file(const std::filesystem::path& path, std::string_view text);
 
 /// The whole file. Throws StageError(kArtefactMissing) when it cannot be read.

@@ -48,10 +48,10 @@ hid_t file_type();
 template <class T>
 hid_t memory_type();
 
-#define ROOMCUT_H5_TYPE(T)  \
-  template <>               \
-  hid_t file_type<T>();     \
-  template <>               \
+#define ROOMCUT_H5_TYPE(T) \
+  template <>              \
+  hid_t file_type<T>();    \
+  template <>              \
   hid_t memory_type<T>();
 ROOMCUT_H5_TYPE(std::int8_t)
 ROOMCUT_H5_TYPE(std::uint8_t)
@@ -74,25 +74,29 @@ using Shape = std::vector<std::uint64_t>;  ///< e.g. {N} or {N, 3}; row-major
 /// Every function throws StageError(kCannotWrite) when the file system refuses.
 class H5Writer {
  public:
-  H5Writer(const std::filesystem::path& path, ArtefactType type, const Provenance& provenance, const Frame& frame);
+  H5Writer(const std::filesystem::path& path, ArtefactType type, const Provenance& provenance,
+           const Frame& frame);
   ~H5Writer();
 
-  /// Writes a whole dataset; parent groups are made. `path` like "levels/z". Empty data are allowed (shape {0,…}).
-  /// `unit`: "m", "m^2", "rad", "1" for pure numbers and indices.
+  /// Writes a whole dataset; parent groups are made. `path` like "levels/z". Empty data are allowed (shape
+  /// {0,…}). `unit`: "m", "m^2", "rad", "1" for pure numbers and indices.
   template <class T>
   void write(const std::string& path, std::span<const T> data, const h5::Shape& shape, std::string_view unit,
              std::string_view description) {
-    write_raw(path, data.data(), data.size(), h5::memory_type<T>(), h5::file_type<T>(), sizeof(T), shape, unit,
-              description);
+    write_raw(path, data.data(), data.size(), h5::memory_type<T>(), h5::file_type<T>(), sizeof(T), shape,
+              unit, description);
   }
   template <class T>
-  void write(const std::string& path, const std::vector<T>& data, std::string_view unit, std::string_view description) {
+  void write(const std::string& path, const std::vector<T>& data, std::string_view unit,
+             std::string_view description) {
     write(path, std::span<const T>(data), {data.size()}, unit, description);
   }
 
-  /// Begins a dataset of `shape` that is filled by append() in order, in blocks: nothing is held back in memory.
+  /// Begins a dataset of `shape` that is filled by append() in order, in blocks: nothing is held back in
+  /// memory.
   template <class T>
-  void begin(const std::string& path, const h5::Shape& shape, std::string_view unit, std::string_view description) {
+  void begin(const std::string& path, const h5::Shape& shape, std::string_view unit,
+             std::string_view description) {
     begin_raw(path, h5::memory_type<T>(), h5::file_type<T>(), sizeof(T), shape, unit, description);
   }
   template <class T>
@@ -104,31 +108,34 @@ class H5Writer {
   void attribute(const std::string& object_path, const std::string& name, std::int64_t value);
   void attribute(const std::string& object_path, const std::string& name, const std::string& value);
 
-  /// Completes /provenance with the payload digest, closes and publishes the file. When the file that stands there has
-  /// the same payload digest, the new one takes over its modification time. Returns whether the payload is new.
+  /// Completes /provenance with the payload digest, closes and publishes the file. When the file that stands
+  /// there has the same payload digest, the new one takes over its modification time. Returns whether the
+  /// payload is new.
   bool commit();
 
  private:
   struct Stream;
   struct State;
-  void write_raw(const std::string& path, const void* data, std::size_t count, hid_t memory_type, hid_t file_type,
-                 std::size_t size, const h5::Shape& shape, std::string_view unit, std::string_view description);
-  void begin_raw(const std::string& path, hid_t memory_type, hid_t file_type, std::size_t size, const h5::Shape& shape,
-                 std::string_view unit, std::string_view description);
+  void write_raw(const std::string& path, const void* data, std::size_t count, hid_t memory_type,
+                 hid_t file_type, std::size_t size, const h5::Shape& shape, std::string_view unit,
+                 std::string_view description);
+  void begin_raw(const std::string& path, hid_t memory_type, hid_t file_type, std::size_t size,
+                 const h5::Shape& shape, std::string_view unit, std::string_view description);
   void append_raw(const std::string& path, const void* data, std::size_t count, std::size_t size);
   std::unique_ptr<State> state_;
 };
 
-/// Reads an HDF5 artefact. The constructor checks that the file is one, of this type, of a version it can read.
-/// Errors: kArtefactMissing, kArtefactDamaged, kArtefactType, kArtefactVersion; the message names file and object.
+/// Reads an HDF5 artefact. The constructor checks that the file is one, of this type, of a version it can
+/// read. Errors: kArtefactMissing, kArtefactDamaged, kArtefactType, kArtefactVersion; the message names file
+/// and object.
 class H5Reader {
  public:
   H5Reader(const std::filesystem::path& path, ArtefactType expected);
   ~H5Reader();
   H5Reader(H5Reader&&) noexcept;
 
-  /// The whole dataset, flattened row-major; checks that the number of dimensions and the inner sizes fit `shape`
-  /// when given (0 = any size).
+  /// The whole dataset, flattened row-major; checks that the number of dimensions and the inner sizes fit
+  /// `shape` when given (0 = any size).
   template <class T>
   std::vector<T> read(const std::string& path, const h5::Shape& shape = {}) const {
     const h5::Shape actual = checked_shape(path, shape);
@@ -145,8 +152,9 @@ class H5Reader {
   }
   h5::Shape shape(const std::string& path) const { return checked_shape(path, {}); }
   bool exists(const std::string& path) const;
-  /// Where the dataset's bytes begin in the file: contiguous, little-endian, never compressed, so that a reader of a big
-  /// cloud may use pread from several threads. Throws kArtefactDamaged when the dataset is chunked or has no bytes.
+  /// Where the dataset's bytes begin in the file: contiguous, little-endian, never compressed, so that a
+  /// reader of a big cloud may use pread from several threads. Throws kArtefactDamaged when the dataset is
+  /// chunked or has no bytes.
   std::uint64_t contiguous_offset(const std::string& path) const;
   double attribute_double(const std::string& object_path, const std::string& name) const;
   std::int64_t attribute_int(const std::string& object_path, const std::string& name) const;
@@ -162,16 +170,17 @@ class H5Reader {
  private:
   struct State;
   h5::Shape checked_shape(const std::string& path, const h5::Shape& expected) const;
-  void read_raw(const std::string& path, void* out, hid_t memory_type, std::uint64_t first, std::uint64_t count) const;
+  void read_raw(const std::string& path, void* out, hid_t memory_type, std::uint64_t first,
+                std::uint64_t count) const;
   std::unique_ptr<State> state_;
 };
 
-/// The payload digest of an HDF5 artefact, computed again from everything that the file holds except /provenance.
-/// Reads all data. Errors as H5Reader.
+/// The payload digest of an HDF5 artefact, computed again from everything that the file holds except
+/// /provenance. Reads all data. Errors as H5Reader.
 std::string recompute_payload_sha256(const std::filesystem::path& path);
 
-/// The payload digest stored in an artefact of any type (HDF5, or JSON with a `provenance` member), its type and
-/// version, without reading the data; for any other file the digest of its bytes, with type "".
+/// The payload digest stored in an artefact of any type (HDF5, or JSON with a `provenance` member), its type
+/// and version, without reading the data; for any other file the digest of its bytes, with type "".
 InputRecord inspect_artefact(const std::filesystem::path& path);
 
 }  // namespace roomcut

@@ -6,7 +6,8 @@
 
 namespace roomcut::h5 {
 
-static_assert(std::endian::native == std::endian::little, "artefacts are little-endian and hashed as they lie in memory");
+static_assert(std::endian::native == std::endian::little,
+              "artefacts are little-endian and hashed as they lie in memory");
 
 Handle& Handle::operator=(Handle&& other) noexcept {
   if (this != &other) {
@@ -47,7 +48,8 @@ ROOMCUT_H5_TYPE(double, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE)
 #undef ROOMCUT_H5_TYPE
 
 void prepare_library() {
-  // Without this the library tries again at exit to flush a file that the disk refused, and never comes to an end.
+  // Without this the library tries again at exit to flush a file that the disk refused, and never comes to an
+  // end.
   static const bool kPrepared = H5dont_atexit() >= 0 && H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr) >= 0;
   static_cast<void>(kPrepared);
 }
@@ -81,7 +83,8 @@ Handle text_type(std::size_t length) {
 
 bool write_attribute(hid_t object, const std::string& name, hid_t file, hid_t memory, const void* value) {
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Handle attribute(H5Acreate2(object, name.c_str(), file, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const Handle attribute(H5Acreate2(object, name.c_str(), file, space.get(), H5P_DEFAULT, H5P_DEFAULT),
+                         H5Aclose);
   return attribute.valid() && H5Awrite(attribute.get(), memory, value) >= 0;
 }
 
@@ -93,7 +96,8 @@ Handle open_attribute(hid_t object, const std::string& name, H5T_class_t wanted)
   Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose);
   const Handle type(H5Aget_type(attribute.get()), H5Tclose);
   const Handle space(H5Aget_space(attribute.get()), H5Sclose);
-  if (!attribute.valid() || H5Tget_class(type.get()) != wanted || H5Sget_simple_extent_npoints(space.get()) != 1) {
+  if (!attribute.valid() || H5Tget_class(type.get()) != wanted ||
+      H5Sget_simple_extent_npoints(space.get()) != 1) {
     return {};
   }
   return attribute;
@@ -173,7 +177,8 @@ void PayloadDigest::attribute(const std::string& object_path, const std::string&
 void PayloadDigest::attribute(const std::string& object_path, const std::string& name, std::int64_t value) {
   entries_["a " + object_path + " " + name] = "i64 " + std::to_string(value);
 }
-void PayloadDigest::attribute(const std::string& object_path, const std::string& name, const std::string& value) {
+void PayloadDigest::attribute(const std::string& object_path, const std::string& name,
+                              const std::string& value) {
   entries_["a " + object_path + " " + name] = "text " + sha256_hex(value);
 }
 std::string PayloadDigest::hex() const {

@@ -20,7 +20,8 @@ std::string last_error();
 /// "/levels/z" for "levels/z"; "/" for "" and "/".
 std::string absolute_path(const std::string& path);
 
-/// Attributes of scalar type only: float64, int64, fixed-length UTF-8 text. Return false or an invalid handle on failure.
+/// Attributes of scalar type only: float64, int64, fixed-length UTF-8 text. Return false or an invalid handle
+/// on failure.
 bool write_text_attribute(hid_t object, const std::string& name, const std::string& value);
 bool write_number_attribute(hid_t object, const std::string& name, double value);
 bool write_number_attribute(hid_t object, const std::string& name, std::int64_t value);
@@ -37,7 +38,8 @@ Handle open_for_reading(const std::filesystem::path& path);
 /// One line per dataset and attribute of the payload; the digest is taken over them in sorted order.
 class PayloadDigest {
  public:
-  void dataset(const std::string& path, const std::string& type, const Shape& shape, const std::string& sha256);
+  void dataset(const std::string& path, const std::string& type, const Shape& shape,
+               const std::string& sha256);
   void attribute(const std::string& object_path, const std::string& name, double value);
   void attribute(const std::string& object_path, const std::string& name, std::int64_t value);
   void attribute(const std::string& object_path, const std::string& name, const std::string& value);

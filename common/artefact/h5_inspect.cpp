@@ -17,10 +17,12 @@ namespace roomcut {
 
 using h5::Handle;
 
-std::string version_text(ArtefactType type) { return std::to_string(type.major) + "." + std::to_string(type.minor); }
+std::string version_text(ArtefactType type) {
+  return std::to_string(type.major) + "." + std::to_string(type.minor);
+}
 
-void check_type_and_version(const std::filesystem::path& path, const std::string& artefact, const std::string& version,
-                            ArtefactType expected) {
+void check_type_and_version(const std::filesystem::path& path, const std::string& artefact,
+                            const std::string& version, ArtefactType expected) {
   if (artefact.empty()) {
     throw StageError(errors::kArtefactDamaged, path.string(),
                      "does not say which artefact it is (expected " + std::string(expected.name) + ")",
@@ -28,21 +30,23 @@ void check_type_and_version(const std::filesystem::path& path, const std::string
   }
   if (artefact != expected.name) {
     throw StageError(errors::kArtefactType, path.string(),
-                     "is an artefact of type " + artefact + ", not " + expected.name, "look at the options of this stage");
+                     "is an artefact of type " + artefact + ", not " + expected.name,
+                     "look at the options of this stage");
   }
   int major = 0;
   int minor = 0;
   const char* end = version.data() + version.size();
   const auto [dot, bad_major] = std::from_chars(version.data(), end, major);
   const bool has_minor = bad_major == std::errc() && dot != end && *dot == '.';
-  const auto [stop, bad_minor] = has_minor ? std::from_chars(dot + 1, end, minor) : std::from_chars_result{dot, std::errc::invalid_argument};
+  const auto [stop, bad_minor] = has_minor ? std::from_chars(dot + 1, end, minor)
+                                           : std::from_chars_result{dot, std::errc::invalid_argument};
   if (bad_minor != std::errc() || stop != end) {
     throw StageError(errors::kArtefactDamaged, path.string(), "states no schema version");
   }
   if (major != expected.major || minor > expected.minor) {
     throw StageError(errors::kArtefactVersion, path.string(),
-                     artefact + " has schema version " + version + ", this program reads " + version_text(expected) +
-                         (expected.minor > 0 ? " and older minor versions" : ""),
+                     artefact + " has schema version " + version + ", this program reads " +
+                         version_text(expected) + (expected.minor > 0 ? " and older minor versions" : ""),
                      "make it again with this version of roomcut");
   }
 }
@@ -56,7 +60,8 @@ Kind kind_of(const std::filesystem::path& path) {
   std::array<unsigned char, 8> head{};
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) {
-    throw StageError(errors::kArtefactMissing, path.string(), std::string("cannot be opened: ") + std::strerror(errno));
+    throw StageError(errors::kArtefactMissing, path.string(),
+                     std::string("cannot be opened: ") + std::strerror(errno));
   }
   const ssize_t got = ::read(file, head.data(), head.size());
   ::close(file);
@@ -143,7 +148,8 @@ struct Visitor {
   void dataset(hid_t object, const std::string& path) {
     const Handle type(H5Dget_type(object), H5Tclose);
     const Handle space(H5Dget_space(object), H5Sclose);
-    std::vector<hsize_t> sizes(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space.get()))));
+    std::vector<hsize_t> sizes(
+        static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space.get()))));
     H5Sget_simple_extent_dims(space.get(), sizes.data(), nullptr);
     Sha256 sha;
     const std::size_t item = H5Tget_size(type.get());
@@ -151,7 +157,8 @@ struct Visitor {
     for (std::size_t i = 1; i < sizes.size(); ++i) {
       row *= sizes[i];
     }
-    const std::uint64_t rows_at_once = row == 0 ? 1 : std::max<std::uint64_t>(1, (std::uint64_t{1} << 22) / row);
+    const std::uint64_t rows_at_once =
+        row == 0 ? 1 : std::max<std::uint64_t>(1, (std::uint64_t{1} << 22) / row);
     std::vector<char> block;
     std::vector<hsize_t> start(sizes.size(), 0);
     std::vector<hsize_t> extent = sizes;
@@ -159,7 +166,8 @@ struct Visitor {
       start[0] = first;
       extent[0] = std::min<std::uint64_t>(rows_at_once, sizes[0] - first);
       block.resize(extent[0] * row);
-      const Handle memory(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
+      const Handle memory(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
+                          H5Sclose);
       H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr);
       if (H5Dread(object, type.get(), memory.get(), space.get(), H5P_DEFAULT, block.data()) < 0) {
         trouble = path + ": " + h5::last_error();
@@ -208,7 +216,8 @@ std::string recompute_payload_sha256(const std::filesystem::path& path) {
   const Handle file = h5::open_for_reading(path);
   Visitor visitor{file.get(), {}, {}};
   if (!file.valid()) {
-    throw StageError(errors::kArtefactDamaged, path.string(), "cannot be opened as HDF5: " + h5::last_error());
+    throw StageError(errors::kArtefactDamaged, path.string(),
+                     "cannot be opened as HDF5: " + h5::last_error());
   }
   if (H5Ovisit(file.get(), H5_INDEX_NAME, H5_ITER_INC, visit, &visitor) < 0) {
     throw StageError(errors::kArtefactDamaged, path.string(), "cannot be read: " + visitor.trouble);

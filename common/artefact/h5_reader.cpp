@@ -23,7 +23,8 @@ namespace {
 
 constexpr const char* kRemedy = "make it again: delete the file and run make";
 
-[[noreturn]] void throw_damaged(const std::filesystem::path& path, const std::string& object, const std::string& what) {
+[[noreturn]] void throw_damaged(const std::filesystem::path& path, const std::string& object,
+                                const std::string& what) {
   throw StageError(errors::kArtefactDamaged, path.string() + ": " + h5::absolute_path(object), what, kRemedy);
 }
 
@@ -39,7 +40,8 @@ Handle open_artefact(const std::filesystem::path& path) {
   }
   Handle file = h5::open_for_reading(path);
   if (!file.valid()) {
-    throw StageError(errors::kArtefactDamaged, path.string(), "cannot be opened as HDF5: " + h5::last_error(), kRemedy);
+    throw StageError(errors::kArtefactDamaged, path.string(), "cannot be opened as HDF5: " + h5::last_error(),
+                     kRemedy);
   }
   return file;
 }
@@ -65,7 +67,9 @@ h5::Shape shape_of(hid_t dataset) {
 class AttributeReader {
  public:
   AttributeReader(const std::filesystem::path& file_path, hid_t file, const std::string& object_path)
-      : file_path_(file_path), path_(h5::absolute_path(object_path)), object_(H5Oopen(file, path_.c_str(), H5P_DEFAULT), H5Oclose) {}
+      : file_path_(file_path),
+        path_(h5::absolute_path(object_path)),
+        object_(H5Oopen(file, path_.c_str(), H5P_DEFAULT), H5Oclose) {}
   std::string text(const std::string& name) const {
     std::string value;
     require(object_.valid() && h5::read_text_attribute(object_.get(), name, value), name);
@@ -96,7 +100,8 @@ class AttributeReader {
 std::vector<std::string> children(hid_t file, const std::string& group_path) {
   std::vector<std::string> names;
   const Handle group(H5Gopen2(file, group_path.c_str(), H5P_DEFAULT), H5Gclose);
-  const auto collect = [](hid_t /*group*/, const char* name, const H5L_info_t* /*info*/, void* out) -> herr_t {
+  const auto collect = [](hid_t /*group*/, const char* name, const H5L_info_t* /*info*/,
+                          void* out) -> herr_t {
     static_cast<std::vector<std::string>*>(out)->emplace_back(name);
     return 0;
   };
@@ -115,15 +120,16 @@ Provenance read_provenance(const std::filesystem::path& path, hid_t file) {
   provenance.params_sha256 = root.text("params_sha256");
   for (const std::string& name : children(file, "/provenance/inputs")) {
     const AttributeReader input(path, file, "/provenance/inputs/" + name);
-    provenance.inputs.push_back(
-        {name, input.text("artefact"), input.text("schema_version"), input.text("payload_sha256"), input.text("path")});
+    provenance.inputs.push_back({name, input.text("artefact"), input.text("schema_version"),
+                                 input.text("payload_sha256"), input.text("path")});
   }
   return provenance;
 }
 
 }  // namespace
 
-H5Reader::H5Reader(const std::filesystem::path& path, ArtefactType expected) : state_(std::make_unique<State>()) {
+H5Reader::H5Reader(const std::filesystem::path& path, ArtefactType expected)
+    : state_(std::make_unique<State>()) {
   state_->path = path;
   state_->file = open_artefact(path);
   const hid_t file = state_->file.get();
@@ -146,10 +152,18 @@ H5Reader::H5Reader(const std::filesystem::path& path, ArtefactType expected) : s
 H5Reader::~H5Reader() = default;
 H5Reader::H5Reader(H5Reader&&) noexcept = default;
 
-const Frame& H5Reader::frame() const { return state_->frame; }
-const Provenance& H5Reader::provenance() const { return state_->provenance; }
-const std::string& H5Reader::payload_sha256() const { return state_->payload; }
-const std::filesystem::path& H5Reader::path() const { return state_->path; }
+const Frame& H5Reader::frame() const {
+  return state_->frame;
+}
+const Provenance& H5Reader::provenance() const {
+  return state_->provenance;
+}
+const std::string& H5Reader::payload_sha256() const {
+  return state_->payload;
+}
+const std::filesystem::path& H5Reader::path() const {
+  return state_->path;
+}
 
 void H5Reader::damaged(const std::string& object_path, const std::string& what) const {
   throw_damaged(state_->path, object_path, what);
@@ -234,7 +248,8 @@ void H5Reader::read_raw(const std::string& path, void* out, hid_t memory_type, s
   start[0] = first;
   extent[0] = count;
   const Handle file_space(H5Dget_space(dataset.get()), H5Sclose);
-  const Handle memory_space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
+  const Handle memory_space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
+                            H5Sclose);
   H5Sselect_hyperslab(file_space.get(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr);
   if (H5Dread(dataset.get(), memory_type, memory_space.get(), file_space.get(), H5P_DEFAULT, out) < 0) {
     damaged(path, "the dataset cannot be read: " + h5::last_error());

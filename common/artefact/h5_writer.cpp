@@ -74,8 +74,9 @@ H5Writer::H5Writer(const std::filesystem::path& path, ArtefactType type, const P
   const Handle creation = untimed(H5P_FILE_CREATE);
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_file_locking(access.get(), false, true);
-  state_->file = Handle(H5Fcreate(state_->atomic.temporary_path().c_str(), H5F_ACC_TRUNC, creation.get(), access.get()),
-                        H5Fclose);
+  state_->file =
+      Handle(H5Fcreate(state_->atomic.temporary_path().c_str(), H5F_ACC_TRUNC, creation.get(), access.get()),
+             H5Fclose);
   state_->require(state_->file.valid(), "/");
   attribute("/", "artefact", std::string(type.name));
   attribute("/", "schema_version", version_text(type));
@@ -113,10 +114,11 @@ void H5Writer::begin_raw(const std::string& path, hid_t memory_type, hid_t file_
   const Handle list = untimed(H5P_DATASET_CREATE);
   H5Pset_layout(list.get(), H5D_CONTIGUOUS);
   H5Pset_alloc_time(list.get(), H5D_ALLOC_TIME_EARLY);
-  H5Pset_fill_time(list.get(), H5D_FILL_TIME_NEVER);  // every element is written before commit() lets the file out
-  stream.dataset =
-      Handle(H5Dcreate2(state_->file.get(), name.c_str(), file_type, space.get(), H5P_DEFAULT, list.get(), H5P_DEFAULT),
-             H5Dclose);
+  H5Pset_fill_time(list.get(),
+                   H5D_FILL_TIME_NEVER);  // every element is written before commit() lets the file out
+  stream.dataset = Handle(H5Dcreate2(state_->file.get(), name.c_str(), file_type, space.get(), H5P_DEFAULT,
+                                     list.get(), H5P_DEFAULT),
+                          H5Dclose);
   state_->require(stream.dataset.valid(), name);
   state_->streams.emplace(name, std::move(stream));
   attribute(name, "unit", std::string(unit));
@@ -138,18 +140,20 @@ void H5Writer::append_raw(const std::string& path, const void* data, std::size_t
     return;
   }
   if (row == 0 || count % row != 0 || count > stream.total - stream.done) {
-    throw std::logic_error("dataset " + name + ": a block that is not made of whole rows, or too many of them");
+    throw std::logic_error("dataset " + name +
+                           ": a block that is not made of whole rows, or too many of them");
   }
   std::vector<hsize_t> start(stream.shape.size(), 0);
   std::vector<hsize_t> extent(stream.shape.begin(), stream.shape.end());
   start[0] = stream.done / row;
   extent[0] = count / row;
   const Handle file_space(H5Dget_space(stream.dataset.get()), H5Sclose);
-  const Handle memory_space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
-  const bool selected =
-      H5Sselect_hyperslab(file_space.get(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr) >= 0;
-  state_->require(selected && H5Dwrite(stream.dataset.get(), stream.memory_type, memory_space.get(), file_space.get(),
-                                       H5P_DEFAULT, data) >= 0,
+  const Handle memory_space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
+                            H5Sclose);
+  const bool selected = H5Sselect_hyperslab(file_space.get(), H5S_SELECT_SET, start.data(), nullptr,
+                                            extent.data(), nullptr) >= 0;
+  state_->require(selected && H5Dwrite(stream.dataset.get(), stream.memory_type, memory_space.get(),
+                                       file_space.get(), H5P_DEFAULT, data) >= 0,
                   name);
   stream.sha.update(data, count * size);
   stream.done += count;
@@ -173,7 +177,9 @@ void put_attribute(hid_t file, const std::string& object_path, Write write) {
   write(object.get());
 }
 
-bool in_provenance(const std::string& path) { return path == "/provenance" || path.starts_with("/provenance/"); }
+bool in_provenance(const std::string& path) {
+  return path == "/provenance" || path.starts_with("/provenance/");
+}
 
 }  // namespace
 
@@ -231,7 +237,8 @@ bool H5Writer::commit() {
     attribute(group, "payload_sha256", input.payload_sha256);
     attribute(group, "path", input.path);
   }
-  // Flushed first: a file that cannot be flushed cannot be closed either, and then the flush's reason is lost.
+  // Flushed first: a file that cannot be flushed cannot be closed either, and then the flush's reason is
+  // lost.
   state_->require(H5Fflush(state_->file.get(), H5F_SCOPE_LOCAL) >= 0, "/");
   state_->file.reset();
   const bool same = stated_payload(state_->atomic.final_path()) == payload;

@@ -60,7 +60,9 @@ Json to_json(const Provenance& provenance) {
 }
 
 Json to_json(const Frame& frame) {
-  return {{"origin", {frame.origin[0], frame.origin[1], frame.origin[2]}}, {"unit", frame.unit}, {"up", frame.up}};
+  return {{"origin", {frame.origin[0], frame.origin[1], frame.origin[2]}},
+          {"unit", frame.unit},
+          {"up", frame.up}};
 }
 
 Provenance provenance_from_json(const Json& value) {
@@ -72,7 +74,8 @@ Provenance provenance_from_json(const Json& value) {
   for (const Json& input : value.at("inputs")) {
     provenance.inputs.push_back({input.at("name").get<std::string>(), input.at("artefact").get<std::string>(),
                                  input.at("schema_version").get<std::string>(),
-                                 input.at("payload_sha256").get<std::string>(), input.at("path").get<std::string>()});
+                                 input.at("payload_sha256").get<std::string>(),
+                                 input.at("path").get<std::string>()});
   }
   return provenance;
 }
@@ -87,7 +90,8 @@ Frame frame_from_json(const Json& value) {
   return frame;
 }
 
-bool publish_json(const std::filesystem::path& path, const std::string& text, const std::string& payload_sha256) {
+bool publish_json(const std::filesystem::path& path, const std::string& text,
+                  const std::string& payload_sha256) {
   const bool same = stated_payload(path) == payload_sha256 && !payload_sha256.empty();
   if (same && read_text_file(path) == text) {
     return false;

@@ -6,7 +6,8 @@
 
 namespace roomcut {
 
-/// What an artefact was made from. `path` is relative to the artefact's own folder; no date, host or absolute path.
+/// What an artefact was made from. `path` is relative to the artefact's own folder; no date, host or absolute
+/// path.
 struct InputRecord {
   std::string name;            ///< the stage's name of the input, e.g. "cloud"
   std::string artefact;        ///< artefact type, or "scan" for a point cloud file
@@ -24,7 +25,8 @@ struct Provenance {
   std::vector<InputRecord> inputs;
 };
 
-/// Metres and z up inside; `origin` was subtracted from every coordinate on reading and is added back on export.
+/// Metres and z up inside; `origin` was subtracted from every coordinate on reading and is added back on
+/// export.
 struct Frame {
   double origin[3] = {0, 0, 0};  ///< [m], in the scan's coordinates after `up` and `unit` were applied
   std::string unit = "m";        ///< the scan's length unit as read: m, mm, cm, ft

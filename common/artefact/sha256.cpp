@@ -62,7 +62,8 @@ std::string sha256_hex(std::string_view text) {
 
 std::string sha256_of_file(const std::filesystem::path& path) {
   const auto refuse = [&path] {
-    throw StageError(errors::kArtefactMissing, path.string(), std::string("cannot be read: ") + std::strerror(errno));
+    throw StageError(errors::kArtefactMissing, path.string(),
+                     std::string("cannot be read: ") + std::strerror(errno));
   };
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) {

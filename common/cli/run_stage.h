@@ -16,10 +16,14 @@ namespace roomcut {
 
 /// A file that a stage reads or writes: option `--<name> FILE`, default `<work>/<default_path>`.
 struct StageFile {
-  std::string name;          ///< "cloud" gives the option --cloud
-  std::string default_path;  ///< below the work folder, e.g. "10_ingest/cloud.h5"; empty: the option is required
+  std::string name;  ///< "cloud" gives the option --cloud
+  std::string
+      default_path;  ///< below the work folder, e.g. "10_ingest/cloud.h5"; empty: the option is required
   std::string description;
   bool optional = false;  ///< inputs only: may be absent (e.g. edits/wall_lines.geojson)
+  /// Inputs only: provenance takes the digest of the file's bytes, whatever the file says of itself. For
+  /// files that a person may edit.
+  bool by_bytes = false;
 };
 
 /// A free-standing option of one stage that is neither a parameter nor an artefact (e.g. ingest's --up).
@@ -32,14 +36,15 @@ struct StageOption {
 
 struct StageInfo {
   std::string name;
-  int revision = 1;      ///< raised whenever the results change for equal inputs and parameters
-  std::string summary;   ///< first line of --help
+  int revision = 1;     ///< raised whenever the results change for equal inputs and parameters
+  std::string summary;  ///< first line of --help
   std::vector<StageFile> inputs;
   std::vector<StageFile> outputs;
   std::vector<StageOption> options;
 };
 
-/// A progress bar with rate and remaining time on a terminal, a plain line now and then when piped, nothing with -q.
+/// A progress bar with rate and remaining time on a terminal, a plain line now and then when piped, nothing
+/// with -q.
 class Progress {
  public:
   Progress(std::string what, std::uint64_t total, bool quiet);
@@ -61,14 +66,16 @@ class StageRun {
   int threads() const;
   bool quiet() const;
 
-  /// Stage, revision, parameters and the digests of all inputs that are there, with paths relative to the first output.
-  /// An artefact's digest is the payload digest it states; for other files the bytes are hashed.
+  /// Stage, revision, parameters and the digests of all inputs that are there, with paths relative to the
+  /// first output. An artefact's digest is the payload digest it states; for other files the bytes are
+  /// hashed.
   const Provenance& provenance() const;
   /// Replaces the digest of an input that is no artefact and that the stage hashes while it reads (the scan).
   void set_input_digest(const std::string& name, const std::string& sha256);
 
   Progress progress(const std::string& what, std::uint64_t total) const;
-  /// A value that `auto` resolved to: printed as "slice: bandwidth_m = 0.012 (2 x noise)" and kept in the log.
+  /// A value that `auto` resolved to: printed as "slice: bandwidth_m = 0.012 (2 x noise)" and kept in the
+  /// log.
   void chose(const std::string& parameter, double value, const std::string& why);
   /// A count or figure of this run: printed at the end and kept in the log.
   void count(const std::string& what, double value, const std::string& unit = "");
@@ -82,9 +89,10 @@ class StageRun {
   State& state_;
 };
 
-/// The whole life of a stage's process: options (--work, --config, --params, --set, --threads, --log, -q, --dump-params,
-/// --version, --help and one per file), TBB thread limit, log file `<work>/logs/<stage>.json`, errors, exit code.
-/// `table` is bound to the params struct that `body` uses.
+/// The whole life of a stage's process: options (--work, --config, --params, --set, --threads, --log, -q,
+/// --dump-params,
+/// --version, --help and one per file), TBB thread limit, log file `<work>/logs/<stage>.json`, errors, exit
+/// code. `table` is bound to the params struct that `body` uses.
 int run_stage(int argc, char** argv, const StageInfo& info, ParameterTable table,
               const std::function<void(StageRun&)>& body);
 

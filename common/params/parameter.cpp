@@ -21,7 +21,9 @@ std::string number_text(double value) {
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
-[[noreturn]] void must_be(const std::string& what) { throw std::invalid_argument("must be " + what); }
+[[noreturn]] void must_be(const std::string& what) {
+  throw std::invalid_argument("must be " + what);
+}
 
 /// "012" is ten in YAML 1.1 and twelve to a person.
 bool has_leading_zero(const std::string& text) {
@@ -44,7 +46,9 @@ double parse_number(const std::string& text, double lowest, double highest, cons
   return value;
 }
 
-std::string range_text(double lowest, double highest) { return number_text(lowest) + " … " + number_text(highest); }
+std::string range_text(double lowest, double highest) {
+  return number_text(lowest) + " … " + number_text(highest);
+}
 
 std::string wanted_text(const Parameter& p) {
   std::string text = (p.type == "integer" ? "a whole number, " : "a number, ") + p.range;
@@ -93,7 +97,8 @@ Parameter number(std::string name, double& field, std::string unit, double lowes
   return p;
 }
 
-Parameter angle(std::string name, double& field_rad, double lowest_deg, double highest_deg, std::string description) {
+Parameter angle(std::string name, double& field_rad, double lowest_deg, double highest_deg,
+                std::string description) {
   Parameter p = describe(std::move(name), "deg", "number", lowest_deg, highest_deg, std::move(description));
   // The degrees are kept beside the radians: 15 stays 15 and not 15.000000000000002 on the way back.
   const auto degrees = std::make_shared<double>(std::round(field_rad / kRadPerDegree * 1e9) / 1e9);
@@ -106,8 +111,8 @@ Parameter angle(std::string name, double& field_rad, double lowest_deg, double h
   return p;
 }
 
-Parameter auto_number(std::string name, std::optional<double>& field, std::string unit, double lowest, double highest,
-                      std::string description) {
+Parameter auto_number(std::string name, std::optional<double>& field, std::string unit, double lowest,
+                      double highest, std::string description) {
   Parameter p = describe(std::move(name), std::move(unit), "number", lowest, highest, std::move(description));
   p.may_be_auto = true;
   p.set = [&field, lowest, highest, wanted = wanted_text(p)](const std::string& text) {
@@ -122,8 +127,10 @@ Parameter auto_number(std::string name, std::optional<double>& field, std::strin
   return p;
 }
 
-Parameter integer(std::string name, int& field, std::string unit, int lowest, int highest, std::string description) {
-  Parameter p = describe(std::move(name), std::move(unit), "integer", lowest, highest, std::move(description));
+Parameter integer(std::string name, int& field, std::string unit, int lowest, int highest,
+                  std::string description) {
+  Parameter p =
+      describe(std::move(name), std::move(unit), "integer", lowest, highest, std::move(description));
   p.range = std::to_string(lowest) + " … " + std::to_string(highest);
   p.set = [&field, lowest, highest, wanted = wanted_text(p)](const std::string& text) {
     int value = 0;
@@ -151,7 +158,8 @@ Parameter boolean(std::string name, bool& field, std::string description) {
   return p;
 }
 
-Parameter choice(std::string name, std::string& field, std::vector<std::string> choices, std::string description) {
+Parameter choice(std::string name, std::string& field, std::vector<std::string> choices,
+                 std::string description) {
   Parameter p = describe(std::move(name), "1", "choice", 0, 0, std::move(description));
   p.choices = std::move(choices);
   p.range.clear();

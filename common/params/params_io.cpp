@@ -22,7 +22,8 @@ std::string at_line(const std::string& file, const YAML::Mark& mark) {
 }
 
 Parameter* find(ParameterTable& table, const std::string& name) {
-  const auto found = std::find_if(table.begin(), table.end(), [&](const Parameter& p) { return p.name == name; });
+  const auto found =
+      std::find_if(table.begin(), table.end(), [&](const Parameter& p) { return p.name == name; });
   return found == table.end() ? nullptr : &*found;
 }
 
@@ -51,8 +52,8 @@ void set_value(Parameter& parameter, const std::string& where, const std::string
   }
 }
 
-void read_block(const YAML::Node& block, const std::string& file, const std::string& stage, ParameterTable& table,
-                Problems& problems) {
+void read_block(const YAML::Node& block, const std::string& file, const std::string& stage,
+                ParameterTable& table, Problems& problems) {
   if (block.IsNull()) {
     return;
   }
@@ -71,7 +72,8 @@ void read_block(const YAML::Node& block, const std::string& file, const std::str
       problems.push_back({errors::kUnknownParameter, where, "there is no such parameter", names_of(table)});
     } else if (!is_new) {
       problems.push_back({errors::kUnknownParameter, where,
-                          "the key stands twice, first in line " + std::to_string(first->second), "keep one of them"});
+                          "the key stands twice, first in line " + std::to_string(first->second),
+                          "keep one of them"});
     } else if (entry.second.IsNull() && entry.second.Scalar().empty()) {
       set_value(*parameter, where, "", problems);
     } else if (!entry.second.IsScalar()) {
@@ -124,8 +126,8 @@ void load_yaml(const std::filesystem::path& path, const std::string& stage, Para
     const std::string where = at_line(file, entry.first.Mark()) + ": " + name;
     const auto [first, is_new] = seen.emplace(name, entry.first.Mark().line + 1);
     if (std::find(known_stages().begin(), known_stages().end(), name) == known_stages().end()) {
-      problems.push_back(
-          {errors::kUnknownParameter, where, "there is no such stage", "the blocks are " + list_of(known_stages())});
+      problems.push_back({errors::kUnknownParameter, where, "there is no such stage",
+                          "the blocks are " + list_of(known_stages())});
     } else if (!is_new) {
       problems.push_back({errors::kUnknownParameter, where,
                           "the block stands twice, first in line " + std::to_string(first->second),
@@ -212,16 +214,16 @@ std::string params_json(const ParameterTable& table) {
 }
 
 std::string dump_params(const std::string& stage, int revision, const ParameterTable& table) {
-  return "{\"params\":" + params_json(table) + ",\"revision\":" + std::to_string(revision) + ",\"stage\":\"" + stage +
-         "\"}\n";
+  return "{\"params\":" + params_json(table) + ",\"revision\":" + std::to_string(revision) + ",\"stage\":\"" +
+         stage + "\"}\n";
 }
 
 std::string parameter_help(const ParameterTable& table) {
   std::string text;
   for (const Parameter& p : table) {
     const std::string unit = p.unit == "1" ? "" : " " + p.unit;
-    text += "  " + p.name + ": " + p.default_text + "   (" + p.range + unit + (p.may_be_auto ? ", or auto" : "") +
-            ")\n      " + p.description + "\n";
+    text += "  " + p.name + ": " + p.default_text + "   (" + p.range + unit +
+            (p.may_be_auto ? ", or auto" : "") + ")\n      " + p.description + "\n";
   }
   return text;
 }

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/cli/run_stage.h"
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+#include <tbb/global_control.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <new>
+
+#include "common/artefact/atomic_file.h"
+#include "common/cli/stage_state.h"
+#include "common/errors/codes.h"
+
+namespace roomcut {
+
+namespace {
+
+/// What the command line says, before it is resolved.
+struct CommandLine {
+  std::string work = ".";
+  std::string config;
+  std::string params;
+  std::vector<std::string> sets;
+  int threads = 0;
+  std::string log;
+  bool quiet = false;
+  bool verbose = false;
+  bool dump = false;
+  std::map<std::string, std::string> files;
+};
+
+void declare_options(CLI::App& app, const StageInfo& info, CommandLine& line, StageRun::State& state) {
+  app.set_version_flag("--version",
+                       info.name + " " ROOMCUT_VERSION + ", revision " + std::to_string(info.revision));
+  app.add_option("--work", line.work, "Folder of all default paths")->type_name("DIR")->capture_default_str();
+  auto* config = app.add_option("--config", line.config, "Parameters: pipeline.yaml")->type_name("FILE");
+  app.add_option("--params", line.params, "Parameters: a file written by --dump-params")
+      ->type_name("FILE")
+      ->excludes(config);
+  app.add_option("--set", line.sets, "One parameter, key=value; may be repeated; wins over the files")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_option("--threads", line.threads,
+                 "Threads; default: all processors; the result is the same for any number")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096));
+  app.add_option("--log", line.log,
+                 "Log of this run; default: <work>/logs/" + info.name + ".json when --work is given")
+      ->type_name("FILE");
+  app.add_flag("-q,--quiet", line.quiet, "Print nothing but errors");
+  app.add_flag("-v,--verbose", line.verbose, "Print settings and files as well");
+  app.add_flag("--dump-params", line.dump, "Print the resolved parameters and stop");
+  for (const auto* list : {&info.inputs, &info.outputs}) {
+    const bool is_input = list == &info.inputs;
+    for (const StageFile& file : *list) {
+      std::string text = file.description + (file.optional ? " (may be absent)" : "");
+      text += file.default_path.empty() ? "" : "; default: <work>/" + file.default_path;
+      app.add_option("--" + file.name, line.files[file.name], text)
+          ->type_name("FILE")
+          ->group(is_input ? "Input" : "Output");
+    }
+  }
+  for (const StageOption& option : info.options) {
+    std::string& value = state.options[option.name];
+    value = option.default_value;
+    auto* added = app.add_option("--" + option.name, value, option.description)->capture_default_str();
+    if (!option.choices.empty()) {
+      added->check(CLI::IsMember(option.choices));
+    }
+  }
+}
+
+void resolve_files(const StageInfo& info, const CommandLine& line, StageRun::State& state) {
+  for (const auto* list : {&info.inputs, &info.outputs}) {
+    for (const StageFile& file : *list) {
+      const std::string& given = line.files.at(file.name);
+      if (given.empty() && file.default_path.empty() && !file.optional) {
+        throw StageError(errors::kUsage, "--" + file.name, "is required", "see " + info.name + " --help");
+      }
+      if (!given.empty()) {
+        state.files[file.name] = given;
+      } else if (!file.default_path.empty()) {
+        state.files[file.name] = (std::filesystem::path(line.work) / file.default_path).lexically_normal();
+      } else {
+        state.files[file.name] = "";
+      }
+    }
+  }
+}
+
+void resolve_parameters(const StageInfo& info, const CommandLine& line, ParameterTable& table) {
+  if (!line.params.empty()) {
+    load_dump(line.params, info.name, table);
+  } else if (!line.config.empty()) {
+    load_yaml(line.config, info.name, table);
+  }
+  for (const std::string& assignment : line.sets) {
+    set_parameter(assignment, info.name, table);
+  }
+}
+
+void start_logger(const CommandLine& line) {
+  auto logger =
+      std::make_shared<spdlog::logger>("roomcut", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
+  logger->set_pattern("%^%v%$");
+  logger->set_level(line.quiet     ? spdlog::level::err
+                    : line.verbose ? spdlog::level::debug
+                                   : spdlog::level::info);
+  spdlog::set_default_logger(std::move(logger));
+}
+
+void echo_settings(const StageInfo& info, const StageRun::State& state, const ParameterTable& table) {
+  for (const Parameter& p : table) {
+    spdlog::debug("{}: {} = {}{}{}", info.name, p.name, p.get(), p.unit == "1" ? "" : " ",
+                  p.unit == "1" ? "" : p.unit);
+  }
+  for (const auto& [name, path] : state.files) {
+    spdlog::debug("{}: --{} {}", info.name, name, path.string());
+  }
+}
+
+/// "slice: 12 levels, 340 cells; 0.53 s, 210 MB", and the warnings once more when there is more than one line
+/// of them.
+void print_summary(const StageRun::State& state) {
+  std::string text;
+  for (const Count& count : state.counts) {
+    text += (text.empty() ? "" : ", ") + count.what + " " + readable(count.value) +
+            (count.unit.empty() || count.unit == "1" ? "" : " " + count.unit);
+  }
+  const Usage used = usage_since(state.clock);
+  spdlog::info("{}: {}{}{:.2f} s, {:.0f} MB", state.info->name, text, text.empty() ? "" : "; ", used.wall_s,
+               used.peak_mb);
+  if (state.warnings.size() > 1) {
+    spdlog::warn("{}: {} warnings:", state.info->name, state.warnings.size());
+    for (const std::string& warning : state.warnings) {
+      spdlog::warn("  {}", warning);
+    }
+  }
+}
+
+int report(const std::vector<Problem>& problems) {
+  for (const Problem& problem : problems) {
+    std::cerr << to_string(problem);
+  }
+  return static_cast<int>(problems.front().code.exit_code);
+}
+
+/// Runs the body; every way in which it can end becomes an exit code.
+int guarded(const std::function<void()>& body, std::vector<Problem>& problems) {
+  try {
+    body();
+    return static_cast<int>(ExitCode::kDone);
+  } catch (const StageError& error) {
+    problems = error.problems();
+    return report(problems);
+  } catch (const std::bad_alloc&) {
+    problems.push_back({errors::kTooComplex, "", "there is not enough memory for this data",
+                        "close other programs, or use a machine with more memory"});
+    return report(problems);
+  } catch (const std::exception& error) {
+    static constexpr ErrorCode kBug{"B01", ExitCode::kBug};
+    problems.push_back({kBug, "", std::string("unexpected: ") + error.what(),
+                        "this is a bug in roomcut: please report it with the command line and the log"});
+    return report(problems);
+  }
+}
+
+void write_log(const CommandLine& line, bool work_given, const StageInfo& info, const StageRun::State& state,
+               const std::vector<Problem>& problems, int exit_code) {
+  if (line.log.empty() && !work_given) {
+    return;
+  }
+  const std::filesystem::path path = line.log.empty()
+                                         ? std::filesystem::path(line.work) / "logs" / (info.name + ".json")
+                                         : std::filesystem::path(line.log);
+  try {
+    write_text_file(path, pretty_json(run_log(state, problems, exit_code)) + "\n");
+  } catch (const std::exception& error) {
+    std::cerr << "warning: " << info.name << ": the log is not written: " << error.what();
+  }
+}
+
+}  // namespace
+
+int run_stage(int argc, char** argv, const StageInfo& info, ParameterTable table,
+              const std::function<void(StageRun&)>& body) {
+  StageRun::State state;
+  state.info = &info;
+  CommandLine line;
+  CLI::App app(info.summary, info.name);
+  app.footer("Parameters (pipeline.yaml, block " + info.name + ", or --set):\n" + parameter_help(table));
+  declare_options(app, info, line, state);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    return report({{errors::kUsage, info.name, error.what(), "see " + info.name + " --help"}});
+  }
+  start_logger(line);
+  install_signal_handlers();
+  const bool work_given = app.get_option("--work")->count() > 0;
+
+  std::vector<Problem> problems;
+  const int exit_code = guarded(
+      [&] {
+        resolve_parameters(info, line, table);
+        if (line.dump) {
+          std::cout << dump_params(info.name, info.revision, table) << std::flush;
+          return;
+        }
+        resolve_files(info, line, state);
+        state.params_json = params_json(table);
+        state.quiet = line.quiet;
+        state.verbose = line.verbose;
+        state.threads = line.threads > 0 ? line.threads : available_threads();
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                        static_cast<std::size_t>(state.threads));
+        echo_settings(info, state, table);
+        StageRun run(state);
+        body(run);
+        print_summary(state);
+      },
+      problems);
+  if (!line.dump) {
+    write_log(line, work_given, info, state, problems, exit_code);
+  }
+  return exit_code;
+}
+
+}  // namespace roomcut
