@@ -10,21 +10,28 @@
 
 namespace roomcut {
 
-/// The cell decomposition (paper §2): one convex subdivision of the plan, the same in every layer, times the layers
-/// between neighbouring levels. All 3D elements are implicit products:
+/// The one tolerance of the plan: a vertex within it of a line lies on that line, and no wall face is
+/// narrower. Lines are stored with 6 decimals, so lines meant to meet in one point miss it by some 1e-6 m;
+/// nothing measurable is this small.
+inline constexpr double kPlanSnap_m = 1e-5;
+
+/// The cell decomposition (paper §2): one convex subdivision of the plan, the same in every layer, times the
+/// layers between neighbouring levels. All 3D elements are implicit products:
 ///   cell     (face f, layer k)  index k * faces() + f       volume  area(f) * height(k)
 ///   wall face (edge e, layer k) index k * edges() + e       area    length(e) * height(k)
 ///   level face (face f, level l) index l * faces() + f      area    area(f)
-/// The subdivision is conforming: two faces share whole edges. Faces are convex, counter-clockwise, and may have
-/// vertices in the middle of a straight side. The outermost faces end at the bounding box, beyond which all is solid.
+/// The subdivision is conforming: two faces share whole edges. Faces are convex, counter-clockwise, and may
+/// have vertices in the middle of a straight side. The outermost faces end at the bounding box, beyond which
+/// all is solid.
 struct CellComplex {
   Frame frame;
   std::vector<double> levels;  ///< ascending heights [m]; layers() = levels.size() - 1
 
-  std::vector<Vec2> vertices;                ///< [m]
-  std::vector<std::int64_t> face_offset;     ///< faces + 1; face f has corners face_vertex[face_offset[f] … face_offset[f+1])
+  std::vector<Vec2> vertices;  ///< [m]
+  std::vector<std::int64_t>
+      face_offset;  ///< faces + 1; face f has corners face_vertex[face_offset[f] … face_offset[f+1])
   std::vector<std::int32_t> face_vertex;
-  std::vector<std::int32_t> face_edge;       ///< parallel to face_vertex: the edge from this corner to the next
+  std::vector<std::int32_t> face_edge;  ///< parallel to face_vertex: the edge from this corner to the next
 
   struct Edge {
     std::int32_t v0, v1;       ///< vertices
@@ -37,6 +44,10 @@ struct CellComplex {
     std::string wall_id;
     Line2 line;
     double t0, t1;  ///< support interval along the line [m]
+    /// Layers where the line may carry a wall, ascending; empty = all. It cuts the plan of every layer all
+    /// the same (one subdivision for all layers), but weigh_faces gives its faces no evidence in other
+    /// layers.
+    std::vector<std::int32_t> layers;
   };
   std::vector<Line> lines;
 
@@ -47,52 +58,62 @@ struct CellComplex {
   std::size_t wall_face(std::size_t edge, std::size_t layer) const { return layer * edges.size() + edge; }
   std::size_t level_face(std::size_t face, std::size_t level) const { return level * faces() + face; }
   double height(std::size_t layer) const { return levels[layer + 1] - levels[layer]; }
-  double length(std::size_t edge) const { return (vertices[edges[edge].v1] - vertices[edges[edge].v0]).norm(); }
+  double length(std::size_t edge) const {
+    return (vertices[edges[edge].v1] - vertices[edges[edge].v0]).norm();
+  }
   /// Area of a face [m^2].
   double area(std::size_t face) const;
   /// Mean of a face's corners, weighted by area: always inside.
   Vec2 centroid(std::size_t face) const;
 };
 
-/// Checks conformity, orientation, convexity, adjacency and that the faces tile the bounding box.
-/// Returns "" or the first violation; cheap (linear). Stages call it on what they read and what they write.
+/// Checks conformity, orientation, convexity, adjacency, edges against their lines (kPlanSnap_m) and that the
+/// faces tile the bounding box. Returns "" or the first violation; linear. Stages call it on what they read
+/// and what they write.
 std::string find_violation(const CellComplex& complex);
 
-/// Evidence on the faces (paper §2, regularisation term): coverage by points and, where the points beside a surface tell,
-/// which side of it is empty. Indices as in CellComplex.
+/// Evidence on the faces (paper §2, regularisation term): coverage by points and, where the points beside a
+/// surface tell, which side of it is empty. Indices as in CellComplex.
 struct FaceWeights {
-  std::vector<float> wall_omega;    ///< wall faces: density-corrected covered share, 0 … 1
-  std::vector<float> wall_left;     ///< share of the coverage that speaks for empty space on the edge's left side, 0 … 1
-  std::vector<float> wall_right;    ///< … on its right side
+  std::vector<float> wall_omega;  ///< wall faces: density-corrected covered share, 0 … 1
+  std::vector<float>
+      wall_left;  ///< share of the coverage that speaks for empty space on the edge's left side, 0 … 1
+  std::vector<float> wall_right;  ///< … on its right side
   std::vector<std::uint32_t> wall_points;
-  std::vector<float> level_omega;   ///< level faces: covered share by any horizontal surface
-  std::vector<float> level_floor;   ///< covered share by floor surface (empty above)
-  std::vector<float> level_ceiling; ///< covered share by ceiling surface (empty below)
+  std::vector<float> level_omega;    ///< level faces: covered share by any horizontal surface
+  std::vector<float> level_floor;    ///< covered share by floor surface (empty above)
+  std::vector<float> level_ceiling;  ///< covered share by ceiling surface (empty below)
   std::vector<std::uint32_t> level_points;
   std::vector<std::uint32_t> cell_points;  ///< cells: points strictly inside, away from the cell's faces
 };
 
-/// Evidence and data term per cell (paper §2, data term). Every evidence is kept, so that one sees why a cell came out.
+/// Evidence and data term per cell (paper §2, data term). Every evidence is kept, so that one sees why a cell
+/// came out.
 struct DataTerms {
-  std::vector<float> kappa;     ///< share of rays with an odd number of crossings, 0 … 1
-  std::vector<float> vertical;  ///< nearest permanent face straight up and down: +1 empty … -1 solid
-  std::vector<float> around;    ///< the same along the rays: +1 empty … -1 solid
-  std::vector<float> winding;   ///< mean over the rays of the signed crossings (leaving empty space +, entering it -): 1 inside, 0 outside
-  std::vector<float> surface_m2;  ///< covered area of the cell's own faces, + where it faces the cell, - where it turns its back [m^2]
-  std::vector<float> observed;  ///< share of the rays that end on a seen face: 0 = nothing is known of the cell
-  std::vector<float> beta;      ///< probability that the cell is empty, 0 … 1
-  std::vector<double> d_empty;  ///< cost of the label empty: V (1 - beta) + what its own faces' backs add [m^3]
+  std::vector<float> kappa;       ///< share of rays with an odd number of crossings, 0 … 1
+  std::vector<float> vertical;    ///< nearest permanent face straight up and down: +1 empty … -1 solid
+  std::vector<float> around;      ///< the same along the rays: +1 empty … -1 solid
+  std::vector<float> winding;     ///< mean over the rays of the signed crossings (leaving empty space +,
+                                  ///< entering it -): 1 inside, 0 outside
+  std::vector<float> surface_m2;  ///< covered area of the cell's own faces, + where it faces the cell, -
+                                  ///< where it turns its back [m^2]
+  std::vector<float>
+      observed;             ///< share of the rays that end on a seen face: 0 = nothing is known of the cell
+  std::vector<float> beta;  ///< probability that the cell is empty, 0 … 1
+  std::vector<double>
+      d_empty;  ///< cost of the label empty: V (1 - beta) + what its own faces' backs add [m^3]
   std::vector<double> d_solid;  ///< cost of the label solid: V beta + what its own faces' fronts add [m^3]
 };
 
 enum class Label : std::uint8_t { kSolid = 0, kEmpty = 1 };
 
 struct Labels {
-  std::vector<std::uint8_t> label;      ///< Label per cell
-  std::vector<float> margin_m3;         ///< energy that flipping this cell alone would cost [m^3]
-  std::vector<std::uint8_t> unobserved; ///< 1 = too little evidence: labelled, but not to be trusted
-  double energy_m3 = 0;                 ///< of the cut
-  double data_m3 = 0, boundary_m3 = 0;  ///< its two parts
+  std::vector<std::uint8_t> label;       ///< Label per cell
+  std::vector<float> margin_m3;          ///< energy that flipping this cell alone would cost [m^3]
+  std::vector<std::uint8_t> unobserved;  ///< 1 = too little evidence: labelled, but not to be trusted
+  double energy_m3 = 0;                  ///< of this labelling (the optimal cut, then repaired)
+  double data_m3 = 0, boundary_m3 = 0;   ///< its two parts
+  std::int64_t repair_flips = 0;         ///< labels that the repair to a 2-manifold surface changed
 };
 
 }  // namespace roomcut

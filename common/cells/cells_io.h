@@ -9,10 +9,10 @@
 
 namespace roomcut {
 
-// Readers and writers of cells.h5, weights.h5, data_terms.h5 and labels.h5. Errors: kArtefact… (common/artefact/h5.h).
-// weights, data_terms and labels store the payload digest of the cells.h5 they belong to; a reader that is given the
-// complex and its digest refuses files of another complex with kArtefactMismatch ("rerun …"). Writers return whether
-// the payload is new.
+// Readers and writers of cells.h5, weights.h5, data_terms.h5 and labels.h5. Errors: kArtefact…
+// (common/artefact/h5.h). weights, data_terms and labels store the payload digest of the cells.h5 they belong
+// to; a reader that is given the complex and its digest refuses files of another complex with
+// kArtefactMismatch ("rerun …"). Writers return whether the payload is new.
 
 struct CellsFile {
   CellComplex complex;
