@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/wall_lines/edit_document.h"
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "common/errors/codes.h"
+#include "common/wall_lines/duplicate_keys.h"
+#include "common/wall_lines/wall_lines_format.h"
+
+namespace roomcut {
+
+namespace {
+
+constexpr double kSameOrigin_m = 1e-6;
+
+std::string text_of(const std::filesystem::path& path) {
+  std::error_code failure;
+  const bool folder = std::filesystem::is_directory(path, failure);
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream text;
+  if (!folder && stream && stream.peek() != std::ifstream::traits_type::eof()) {
+    text << stream.rdbuf();
+  }
+  if (folder || !stream.is_open() || stream.bad()) {
+    throw StageError(errors::kLinesUnreadable, path.string(),
+                     folder ? "is a folder, not a file" : "cannot be read",
+                     "check the path and the permissions");
+  }
+  return text.str();
+}
+
+/// nlohmann's message without its own prefix: "parse error at line 3, column 5: …".
+std::string short_message(const std::string& message) {
+  const std::size_t end = message.find("] ");
+  return end == std::string::npos ? message : message.substr(end + 2);
+}
+
+Json parse(const std::string& text, const EditReport& report) {
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
+    throw StageError(errors::kLinesNotJson, report.path, "the file is empty",
+                     "save it again, or remove it to work with the detected lines");
+  }
+  try {
+    return Json::parse(text);
+  } catch (const Json::exception& error) {
+    throw StageError(errors::kLinesNotJson, report.path, "not JSON: " + short_message(error.what()),
+                     "look at the place named: a missing or a trailing comma, an open bracket or quote?");
+  }
+}
+
+void check_collection(const Json& document, const EditReport& report) {
+  const bool collection = document.is_object() && document.contains("type") &&
+                          document["type"] == "FeatureCollection" && document.contains("features") &&
+                          document["features"].is_array();
+  if (!collection) {
+    throw StageError(errors::kLinesNotFeatureCollection, report.path,
+                     "no GeoJSON FeatureCollection with a list of features",
+                     "export the layer as GeoJSON, or start from `make edit-lines`");
+  }
+}
+
+std::string text_member(const Json& object, const char* key) {
+  return object.contains(key) && object[key].is_string() ? object[key].get<std::string>() : std::string();
+}
+
+void check_version(const Json& member, EditReport& report) {
+  const std::string version = text_member(member, "schema_version");
+  int major = -1;
+  int minor = -1;
+  const char* end = version.data() + version.size();
+  const auto first = std::from_chars(version.data(), end, major);
+  if (first.ec == std::errc() && first.ptr != end && *first.ptr == '.') {
+    std::from_chars(first.ptr + 1, end, minor);
+  }
+  const ArtefactType type = artefacts::kWallLines;
+  if (major < 1 || minor < 0) {
+    report.problem(errors::kLinesVersion, kMember, "schema_version \"" + version + "\" is no version",
+                   "write \"1.0\" as in the detected lines, or delete the whole member");
+  } else if (major > type.major || (major == type.major && minor > type.minor)) {
+    report.problem(errors::kLinesVersion, kMember,
+                   "has schema version " + version + ", this roomcut reads up to " +
+                       std::to_string(type.major) + "." + std::to_string(type.minor),
+                   "use the roomcut that wrote it, or a newer one");
+  }
+}
+
+/// The distance that the origin moved since the edit began, in plan.
+Vec2 check_frame(const Json& member, const Frame& base, EditReport& report) {
+  if (member.contains("length_unit") && member["length_unit"] != "m") {
+    report.problem(errors::kLinesUnit, kMember,
+                   "length_unit is " + member["length_unit"].dump() + ", lines are in \"m\"",
+                   "scale the coordinates to metres and write \"m\"");
+  }
+  if (!member.contains("frame")) {
+    return {0, 0};
+  }
+  Frame frame;
+  try {
+    frame = frame_from_json(member["frame"]);
+  } catch (const Json::exception&) {
+    report.problem(errors::kLinesUnit, kMember, "frame is not complete",
+                   "copy the member `frame` from the detected lines");
+    return {0, 0};
+  }
+  if (frame.unit != base.unit || frame.up != base.up) {
+    report.problem(errors::kLinesUnit, kMember,
+                   "was drawn on a scan read with --unit " + frame.unit + " --up " + frame.up +
+                       ", this one was read with --unit " + base.unit + " --up " + base.up,
+                   "ingest the scan as before, or draw the edit anew (`make drop-edit`, `make edit-lines`)");
+    return {0, 0};
+  }
+  const Vec2 shift(frame.origin[0] - base.origin[0], frame.origin[1] - base.origin[1]);
+  if (shift.norm() <= kSameOrigin_m) {
+    return {0, 0};
+  }
+  report.warn(kMember, "the scan's origin moved by " + std::to_string(shift.norm()) +
+                           " m since the edit began; its lines were moved along");
+  return shift;
+}
+
+}  // namespace
+
+Json read_edit_document(const std::filesystem::path& path, EditReport& report) {
+  const std::string text = text_of(path);
+  Json document = parse(text, report);
+  check_collection(document, report);
+  for (const DuplicateKey& duplicate : find_duplicate_keys(text)) {
+    report.problem(errors::kLinesDuplicateKey, duplicate.object,
+                   "the key \"" + duplicate.key + "\" stands twice", "keep the one that is meant");
+  }
+  return document;
+}
+
+EditOrigin read_edit_member(const Json& document, const Frame& base_frame, EditReport& report) {
+  EditOrigin origin;
+  if (!document.contains(kMember)) {
+    report.warn("", std::string("the member `") + kMember +
+                        "` is missing; unit, frame and base are taken from the detected lines");
+    return origin;
+  }
+  const Json& member = document[kMember];
+  if (!member.is_object() || text_member(member, "artefact") != artefacts::kWallLines.name) {
+    report.problem(errors::kLinesNoMember, kMember, "does not say \"artefact\": \"wall_lines\"",
+                   "restore it from the detected lines, or delete the whole member");
+    return origin;
+  }
+  check_version(member, report);
+  origin.base_sha256 = text_member(member, "base_sha256");
+  origin.shift = check_frame(member, base_frame, report);
+  return origin;
+}
+
+}  // namespace roomcut

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/errors/codes.h"
+#include "common/wall_lines/edit_document.h"
+
+namespace roomcut {
+
+namespace {
+
+constexpr double kShrunk = 1e-3;  ///< a whole plan smaller than this share of the scan was reprojected
+
+struct Box {
+  Vec2 low{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
+  Vec2 high{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()};
+  void add(const Vec2& p) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  bool holds(const Vec2& p) const {
+    return p.x() >= low.x() && p.y() >= low.y() && p.x() <= high.x() && p.y() <= high.y();
+  }
+  double diagonal() const { return (high - low).norm(); }
+};
+
+struct Cause {
+  std::string what, hint;
+};
+
+/// Whether all points of `points` lie in `box` after p -> scale * p - origin.
+bool fits(const Box& points, const Box& box, double scale, const Vec2& origin) {
+  return box.holds(scale * points.low - origin) && box.holds(scale * points.high - origin);
+}
+
+Cause likely_cause(const Box& points, const Box& allowed, const Frame& frame) {
+  const Vec2 origin(frame.origin[0], frame.origin[1]);
+  if (points.low.x() >= -180 && points.high.x() <= 180 && points.low.y() >= -90 && points.high.y() <= 90) {
+    return {"these look like degrees",
+            "save the layer in its own local metres, without reprojecting to WGS 84"};
+  }
+  if (fits(points, allowed, 1e-3, {0, 0})) {
+    return {"these look like millimetres", "scale the coordinates to metres"};
+  }
+  if (fits(points, allowed, 1e-2, {0, 0})) {
+    return {"these look like centimetres", "scale the coordinates to metres"};
+  }
+  if (fits(points, allowed, 1, origin)) {
+    return {"these look like the scan's own coordinates",
+            "subtract the origin (" + std::to_string(origin.x()) + ", " + std::to_string(origin.y()) + ")"};
+  }
+  return {"neither degrees, millimetres nor the scan's own coordinates would fit",
+          "move the line into the scan, or delete the feature"};
+}
+
+}  // namespace
+
+void check_edit_extent(const std::vector<DrawnLine>& drawn, const WallLines& base, EditReport& report) {
+  const double margin = 0.5 * (base.bbox_max - base.bbox_min).norm();
+  const Box allowed{base.bbox_min - Vec2(margin, margin), base.bbox_max + Vec2(margin, margin)};
+  const auto outside = [&](const DrawnLine& d) {
+    return !allowed.holds(d.line.a) || !allowed.holds(d.line.b);
+  };
+  Box all;
+  for (const DrawnLine& d : drawn) {
+    all.add(d.line.a);
+    all.add(d.line.b);
+  }
+  const auto count = static_cast<std::size_t>(std::count_if(drawn.begin(), drawn.end(), outside));
+  const bool shrunk = drawn.size() > 1 && all.diagonal() < kShrunk * 2 * margin;
+  if (count == drawn.size() || shrunk) {
+    if (!drawn.empty()) {
+      const Cause cause = shrunk ? Cause{"these look like degrees", "save the layer in its own local metres"}
+                                 : likely_cause(all, allowed, base.frame);
+      report.problem(errors::kLinesOutside, "all " + std::to_string(drawn.size()) + " lines",
+                     (shrunk ? "lie on one spot: " : "lie far outside the scan: ") + cause.what, cause.hint);
+    }
+    return;
+  }
+  for (const DrawnLine& d : drawn) {
+    if (outside(d)) {
+      Box one;
+      one.add(d.line.a);
+      one.add(d.line.b);
+      const Cause cause = likely_cause(one, allowed, base.frame);
+      report.problem(errors::kLinesOutside, feature_place(d.feature, d.line.id),
+                     "lies far outside the scan: " + cause.what, cause.hint);
+    }
+  }
+}
+
+}  // namespace roomcut

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/artefact/artefact_check.h"
+#include "common/errors/codes.h"
+#include "common/wall_lines/edit_document.h"
+#include "common/wall_lines/wall_lines_format.h"
+#include "common/wall_lines/wall_lines_io.h"
+
+namespace roomcut {
+
+WallLinesFile read_edited_wall_lines(const std::filesystem::path& path, const WallLines& base) {
+  EditReport report;
+  report.path = path.string();
+  const Json document = read_edit_document(path, report);
+  const EditOrigin origin = read_edit_member(document, base.frame, report);
+  std::vector<DrawnLine> drawn = read_edit_features(document["features"], origin.shift, report);
+  if (drawn.empty() && report.problems.empty()) {
+    report.problem(errors::kLinesNone, "", "has no line left",
+                   "draw one, or remove the file to go back to the detected lines (`make drop-edit`)");
+  }
+  check_edit_extent(drawn, base, report);
+  if (!report.problems.empty()) {
+    throw StageError(report.problems);
+  }
+  WallLinesFile file;
+  file.content.frame = base.frame;
+  file.content.bbox_min = base.bbox_min;
+  file.content.bbox_max = base.bbox_max;
+  file.content.base_sha256 = origin.base_sha256;
+  file.content.lines = identify_lines(std::move(drawn), base, report);
+  file.payload_sha256 = wall_lines_payload_sha256(file.content);
+  file.warnings = std::move(report.warnings);
+  return file;
+}
+
+}  // namespace roomcut

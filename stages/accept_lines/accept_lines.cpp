@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/accept_lines/accept_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace roomcut {
+
+namespace {
+
+constexpr double kNear_m = 0.03;
+constexpr double kNear_rad = 2.0 * std::numbers::pi / 180.0;
+
+bool near(const WallLine& line, const WallLine& other) {
+  const Line2 base = line.line();
+  if (angle_between(base.theta, other.line().theta) > kNear_rad) {
+    return false;
+  }
+  const auto [low, high] = std::minmax(base.along(other.a), base.along(other.b));
+  const auto [first, last] = std::minmax(base.along(line.a), base.along(line.b));
+  const double from = std::max(low, first);
+  const double to = std::min(high, last);
+  const Vec2 middle = base.at(0.5 * (from + to));  // of the common stretch
+  return to > from && std::abs(other.line().distance(middle)) <= kNear_m;
+}
+
+}  // namespace
+
+std::vector<WallLine> without_partner(const std::vector<WallLine>& lines,
+                                      const std::vector<WallLine>& others) {
+  std::vector<WallLine> alone;
+  for (const WallLine& line : lines) {
+    if (std::none_of(others.begin(), others.end(),
+                     [&](const WallLine& other) { return near(line, other); })) {
+      alone.push_back(line);
+    }
+  }
+  return alone;
+}
+
+Acceptance accept_lines(const WallLines& detected, const std::string& detection_sha256,
+                        const std::optional<WallLines>& edit) {
+  Acceptance result;
+  result.lines = edit ? *edit : detected;
+  result.base_moved = edit && !edit->base_sha256.empty() && edit->base_sha256 != detection_sha256;
+  if (!result.base_moved) {
+    result.lines.base_sha256 = detection_sha256;
+  } else {
+    result.only_detected = without_partner(detected.lines, edit->lines);
+    result.only_edited = without_partner(edit->lines, detected.lines);
+  }
+  if (edit) {
+    result.changes = compare_lines(detected.lines, edit->lines);
+  }
+  const auto locked = [](const WallLine& line) { return line.locked; };
+  result.locked =
+      static_cast<int>(std::count_if(result.lines.lines.begin(), result.lines.lines.end(), locked));
+  return result;
+}
+
+}  // namespace roomcut

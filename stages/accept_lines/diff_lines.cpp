@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <iostream>
+
+#include "common/cli/run_stage.h"
+#include "common/wall_lines/wall_lines_io.h"
+#include "stages/accept_lines/accept_lines.h"
+#include "stages/accept_lines/describe_changes.h"
+
+namespace {
+
+using namespace roomcut;
+
+StageInfo info() {
+  StageInfo stage;
+  stage.name = "diff_lines";
+  stage.summary = "Prints what the hand edit adds, moves and deletes; writes nothing";
+  stage.inputs = {{"detected", "30_detect_lines/wall_lines.geojson", "Detected wall lines"},
+                  {"edit", "edits/wall_lines.geojson", "Wall lines edited by hand", true, true}};
+  return stage;
+}
+
+void body(StageRun& run) {
+  const WallLinesFile detected = read_wall_lines(run.input("detected"));
+  if (!run.has_input("edit")) {
+    std::cout << "no edit at " << run.input("edit").string() << ": all " << detected.content.lines.size()
+              << " lines are as detected\n";
+    return;
+  }
+  const WallLinesFile edit = read_edited_wall_lines(run.input("edit"), detected.content);
+  for (const std::string& warning : edit.warnings) {
+    run.warn(warning);
+  }
+  const Acceptance accepted = accept_lines(detected.content, detected.payload_sha256, edit.content);
+  for (const std::string& line :
+       describe_changes(accepted.changes, detected.content.lines, edit.content.lines)) {
+    std::cout << line << "\n";
+  }
+  if (accepted.base_moved) {
+    std::cout << describe_moved_base(accepted, detected.payload_sha256, 1000) << "\n";
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_stage(argc, argv, info(), {}, body);
+}
