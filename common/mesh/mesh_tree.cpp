@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/mesh/mesh_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace roomcut {
+
+namespace {
+
+constexpr std::int32_t kLeafSize = 4;
+constexpr std::size_t kStack = 128;  // deeper than any tree split in halves can be
+
+Vec3 cross(const Vec3& u, const Vec3& v) {
+  return {u.y() * v.z() - u.z() * v.y(), u.z() * v.x() - u.x() * v.z(), u.x() * v.y() - u.y() * v.x()};
+}
+
+double box_distance2(const Vec3& p, const Vec3& lo, const Vec3& hi) {
+  return (lo - p).cwiseMax(p - hi).cwiseMax(0.0).squaredNorm();
+}
+
+}  // namespace
+
+// The region of the triangle's plane in which the foot of p lies decides between corner, side and inside
+// (Ericson 2005, Real-Time Collision Detection, 5.1.5).
+double squared_distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 ab = b - a;
+  const Vec3 ac = c - a;
+  const Vec3 ap = p - a;
+  const double d1 = ab.dot(ap);
+  const double d2 = ac.dot(ap);
+  if (d1 <= 0 && d2 <= 0) return ap.squaredNorm();
+  const Vec3 bp = p - b;
+  const double d3 = ab.dot(bp);
+  const double d4 = ac.dot(bp);
+  if (d3 >= 0 && d4 <= d3) return bp.squaredNorm();
+  const Vec3 cp = p - c;
+  const double d5 = ab.dot(cp);
+  const double d6 = ac.dot(cp);
+  if (d6 >= 0 && d5 <= d6) return cp.squaredNorm();
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return (ap - d1 / (d1 - d3) * ab).squaredNorm();
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return (ap - d2 / (d2 - d6) * ac).squaredNorm();
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 >= d3 && d5 >= d6)
+    return (bp - (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b)).squaredNorm();
+  const Vec3 n = cross(ab, ac);  // never zero here: one of the cases above holds for a triangle without area
+  const double along = n.dot(ap);
+  return along * along / n.squaredNorm();
+}
+
+MeshTree::MeshTree(const TriangleMesh& mesh) {
+  std::vector<std::int32_t> all(mesh.triangles.size());
+  std::iota(all.begin(), all.end(), 0);
+  build(mesh, std::move(all));
+}
+
+MeshTree::MeshTree(const TriangleMesh& mesh, std::vector<std::int32_t> subset) {
+  build(mesh, std::move(subset));
+}
+
+void MeshTree::build(const TriangleMesh& mesh, std::vector<std::int32_t> subset) {
+  normal_.reserve(mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vec3 n = area_normal(mesh, t);
+    const double length = n.norm();
+    normal_.push_back(length > 0 ? Vec3(n / length) : Vec3(0, 0, 0));
+  }
+  const auto centre = [&](std::int32_t t, int axis) {
+    const auto i = static_cast<std::size_t>(t);
+    return mesh.corner(i, 0)[axis] + mesh.corner(i, 1)[axis] + mesh.corner(i, 2)[axis];
+  };
+  struct Range {
+    std::size_t node;
+    std::int32_t first, last;
+  };
+  item_of_.assign(mesh.triangles.size(), -1);
+  if (subset.empty()) {
+    return;
+  }
+  nodes_.emplace_back();
+  std::vector<Range> open{{0, 0, static_cast<std::int32_t>(subset.size())}};
+  while (!open.empty()) {
+    const Range range = open.back();
+    open.pop_back();
+    Vec3 lo = Vec3::Constant(kInfinity);
+    Vec3 hi = -lo;
+    for (std::int32_t i = range.first; i < range.last; ++i) {
+      for (int c = 0; c < 3; ++c) {
+        const Vec3& p = mesh.corner(static_cast<std::size_t>(subset[static_cast<std::size_t>(i)]), c);
+        lo = lo.cwiseMin(p);
+        hi = hi.cwiseMax(p);
+      }
+    }
+    if (range.last - range.first <= kLeafSize) {
+      nodes_[range.node] = {lo, hi, range.first, range.last - range.first};
+      continue;
+    }
+    int axis = 0;
+    (hi - lo).maxCoeff(&axis);
+    const std::int32_t middle = (range.first + range.last) / 2;
+    std::nth_element(subset.begin() + range.first, subset.begin() + middle, subset.begin() + range.last,
+                     [&](std::int32_t a, std::int32_t b) {
+                       return std::pair(centre(a, axis), a) < std::pair(centre(b, axis), b);
+                     });
+    const auto child = static_cast<std::int32_t>(nodes_.size());
+    nodes_[range.node] = {lo, hi, child, 0};
+    nodes_.resize(nodes_.size() + 2);
+    open.push_back({static_cast<std::size_t>(child), range.first, middle});
+    open.push_back({static_cast<std::size_t>(child) + 1, middle, range.last});
+  }
+  items_.reserve(subset.size());
+  for (const std::int32_t t : subset) {
+    const auto i = static_cast<std::size_t>(t);
+    item_of_[i] = static_cast<std::int32_t>(items_.size());
+    items_.push_back({mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2), t});
+  }
+}
+
+template <class Accept>
+MeshTree::Hit MeshTree::search(const Vec3& p, Hit best, const Accept& accept) const {
+  if (nodes_.empty()) {
+    return {};
+  }
+  double best2 = best.distance * best.distance;
+  struct Entry {
+    double distance2;
+    std::int32_t node;
+  };
+  std::array<Entry, kStack> stack;
+  std::size_t depth = 0;
+  stack[depth++] = {box_distance2(p, nodes_[0].lo, nodes_[0].hi), 0};
+  while (depth > 0) {
+    const Entry entry = stack[--depth];
+    if (entry.distance2 > best2) {
+      continue;
+    }
+    const Node& node = nodes_[static_cast<std::size_t>(entry.node)];
+    if (node.count == 0) {
+      const auto left = static_cast<std::size_t>(node.first);
+      Entry near{box_distance2(p, nodes_[left].lo, nodes_[left].hi), node.first};
+      Entry far{box_distance2(p, nodes_[left + 1].lo, nodes_[left + 1].hi), node.first + 1};
+      if (far.distance2 < near.distance2) {
+        std::swap(near, far);
+      }
+      if (far.distance2 <= best2) {
+        stack[depth++] = far;
+      }
+      if (near.distance2 <= best2) {
+        stack[depth++] = near;
+      }
+      continue;
+    }
+    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
+      const Item& item = items_[static_cast<std::size_t>(i)];
+      if (!accept(item.triangle)) {
+        continue;
+      }
+      const double distance2 = squared_distance(p, item.a, item.b, item.c);
+      // Of equally near triangles the lowest wins, whatever the order of the search.
+      if (distance2 < best2 || (distance2 == best2 && (best.triangle < 0 || item.triangle < best.triangle))) {
+        best2 = distance2;
+        best = {std::sqrt(distance2), item.triangle};
+      }
+    }
+  }
+  return best.triangle < 0 ? Hit{} : best;
+}
+
+MeshTree::Hit MeshTree::nearest(const Vec3& p, double limit, std::int32_t hint) const {
+  Hit start{limit, -1};
+  if (hint >= 0 && item_of_[static_cast<std::size_t>(hint)] >= 0) {
+    const Item& item = items_[static_cast<std::size_t>(item_of_[static_cast<std::size_t>(hint)])];
+    const double distance = std::sqrt(squared_distance(p, item.a, item.b, item.c));
+    // A hair more than the hint's distance: the search itself then finds the hint or something better.
+    start.distance = std::min(limit, distance * (1 + 1e-12) + 1e-300);
+  }
+  return search(p, start, [](std::int32_t) { return true; });
+}
+
+MeshTree::Hit MeshTree::nearest_facing(const Vec3& p, double limit, const Vec3& direction,
+                                       double least_cosine) const {
+  return search(p, {limit, -1},
+                [&](std::int32_t triangle) { return unit_normal(triangle).dot(direction) >= least_cosine; });
+}
+
+MeshTree::Hit MeshTree::first_on_segment(const Vec3& from, const Vec3& direction, double skip) const {
+  const double length = direction.norm();
+  if (nodes_.empty() || !(length > 0)) {
+    return {};
+  }
+  Hit best{length, -1};
+  const Vec3 unit = direction / length;
+  std::array<std::int32_t, kStack> stack;
+  std::size_t depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const Node& node = nodes_[static_cast<std::size_t>(stack[--depth])];
+    double enter = 0;
+    double leave = best.distance;
+    for (int axis = 0; axis < 3 && enter <= leave; ++axis) {
+      if (unit[axis] == 0) {
+        if (from[axis] < node.lo[axis] || from[axis] > node.hi[axis]) {
+          leave = -1;
+        }
+        continue;
+      }
+      const double t0 = (node.lo[axis] - from[axis]) / unit[axis];
+      const double t1 = (node.hi[axis] - from[axis]) / unit[axis];
+      enter = std::max(enter, std::min(t0, t1) - 1e-9);  // flat boxes must not be missed by rounding
+      leave = std::min(leave, std::max(t0, t1) + 1e-9);
+    }
+    if (enter > leave) {
+      continue;
+    }
+    if (node.count == 0) {
+      stack[depth++] = node.first;
+      stack[depth++] = node.first + 1;
+      continue;
+    }
+    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
+      const Item& item = items_[static_cast<std::size_t>(i)];  // Möller and Trumbore 1997
+      const Vec3 ab = item.b - item.a;
+      const Vec3 ac = item.c - item.a;
+      const Vec3 h = cross(unit, ac);
+      const double det = ab.dot(h);
+      if (det == 0) {
+        continue;
+      }
+      const Vec3 s = from - item.a;
+      const Vec3 q = cross(s, ab);
+      const double u = s.dot(h) / det;
+      const double v = unit.dot(q) / det;
+      const double t = ac.dot(q) / det;
+      if (u < 0 || v < 0 || u + v > 1 || t < skip || t > best.distance) {
+        continue;
+      }
+      if (t < best.distance || best.triangle < 0 || item.triangle < best.triangle) {
+        best = {t, item.triangle};
+      }
+    }
+  }
+  return best.triangle < 0 ? Hit{} : best;
+}
+
+}  // namespace roomcut

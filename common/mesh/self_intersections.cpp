@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/mesh/self_intersections.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <utility>
+
+namespace roomcut {
+
+namespace {
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+namespace pmp = CGAL::Polygon_mesh_processing;
+
+std::vector<Point> points_of(const TriangleMesh& mesh) {
+  std::vector<Point> points;
+  points.reserve(mesh.vertices.size());
+  for (const Vec3& p : mesh.vertices) {
+    points.emplace_back(p.x(), p.y(), p.z());
+  }
+  return points;
+}
+}  // namespace
+
+std::int64_t count_self_intersections(const TriangleMesh& mesh) {
+  std::vector<std::array<std::size_t, 3>> corners;
+  corners.reserve(mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) {
+    corners.push_back(
+        {static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]), static_cast<std::size_t>(t[2])});
+  }
+  if (!pmp::is_polygon_soup_a_polygon_mesh(corners)) {
+    return -1;
+  }
+  CGAL::Surface_mesh<Point> surface;
+  pmp::polygon_soup_to_polygon_mesh(points_of(mesh), corners, surface);
+  using Face = CGAL::Surface_mesh<Point>::Face_index;
+  std::vector<std::pair<Face, Face>> pairs;
+  pmp::self_intersections(surface, std::back_inserter(pairs));
+  return static_cast<std::int64_t>(pairs.size());
+}
+
+std::int64_t count_degenerate_triangles(const TriangleMesh& mesh) {
+  const auto points = points_of(mesh);
+  std::int64_t count = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const auto corner = [&](std::size_t c) { return points[static_cast<std::size_t>(t[c])]; };
+    count += CGAL::collinear(corner(0), corner(1), corner(2)) ? 1 : 0;
+  }
+  return count;
+}
+
+}  // namespace roomcut

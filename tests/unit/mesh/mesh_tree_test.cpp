@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/mesh/mesh_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/random/counter_random.h"
+#include "tests/unit/mesh/shapes.h"
+
+namespace roomcut {
+namespace {
+
+using test::append;
+using test::box;
+
+Vec3 random_point(std::uint64_t stream, std::uint64_t i, double scale) {
+  return scale * Vec3(random_unit(1, stream, 3 * i), random_unit(1, stream, 3 * i + 1),
+                      random_unit(1, stream, 3 * i + 2));
+}
+
+TriangleMesh random_triangles(int count) {
+  TriangleMesh mesh;
+  for (int i = 0; i < count; ++i) {
+    const Vec3 centre = random_point(1, static_cast<std::uint64_t>(i), 10);
+    for (int c = 0; c < 3; ++c) {
+      mesh.vertices.push_back(centre + random_point(2, static_cast<std::uint64_t>(3 * i + c), 1));
+    }
+    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  return mesh;
+}
+
+// Least distance over a fine grid of barycentric coordinates: an upper bound, tight to the grid's step.
+double sampled_distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  double best = MeshTree::kInfinity;
+  constexpr int kSteps = 200;
+  for (int i = 0; i <= kSteps; ++i) {
+    for (int j = 0; i + j <= kSteps; ++j) {
+      best = std::min(best, (a + (b - a) * i / kSteps + (c - a) * j / kSteps - p).norm());
+    }
+  }
+  return best;
+}
+
+TEST(MeshTree, DistanceToATriangleAgreesWithDenseSampling) {
+  for (std::uint64_t i = 0; i < 60; ++i) {
+    const Vec3 a = random_point(5, 4 * i, 1), b = random_point(5, 4 * i + 1, 1),
+               c = random_point(5, 4 * i + 2, 1);
+    const Vec3 p = 2 * random_point(5, 4 * i + 3, 1);
+    const double exact = std::sqrt(squared_distance(p, a, b, c));
+    const double sampled = sampled_distance(p, a, b, c);
+    EXPECT_LE(exact, sampled + 1e-12);
+    EXPECT_GT(exact, sampled - 0.01);
+  }
+}
+
+TEST(MeshTree, NearestEqualsTheBruteForceWithAndWithoutHint) {
+  const TriangleMesh mesh = random_triangles(300);
+  const MeshTree tree(mesh);
+  for (std::uint64_t i = 0; i < 300; ++i) {
+    const Vec3 p = random_point(3, i, 12);
+    double best = MeshTree::kInfinity;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      best = std::min(best, squared_distance(p, mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)));
+    }
+    const MeshTree::Hit hit = tree.nearest(p);
+    EXPECT_DOUBLE_EQ(hit.distance, std::sqrt(best));
+    const MeshTree::Hit hinted = tree.nearest(p, MeshTree::kInfinity, static_cast<std::int32_t>(i));
+    EXPECT_EQ(hinted.triangle, hit.triangle);
+    EXPECT_EQ(tree.nearest(p, 0.5 * hit.distance).triangle, -1);
+  }
+}
+
+TEST(MeshTree, NearestFacingPassesOverTheOtherSideOfAThinWall) {
+  TriangleMesh mesh = box({0, 0, 0}, {4, 4, 3});
+  append(mesh, box({4.1, 0, 0}, {8, 4, 3}));
+  const MeshTree tree(mesh);
+  const Vec3 p(4.02, 2, 1.5);
+  EXPECT_NEAR(tree.nearest(p).distance, 0.02, 1e-12);
+  const auto facing = tree.nearest_facing(p, 1, Vec3(-1, 0, 0), 0.9);
+  EXPECT_NEAR(facing.distance, 0.08, 1e-12);
+  EXPECT_EQ(tree.nearest_facing(p, 0.05, Vec3(-1, 0, 0), 0.9).triangle, -1);
+}
+
+TEST(MeshTree, SegmentsStopAtTheFirstTriangleAndSkipTheirOwnStart) {
+  TriangleMesh mesh = box({0, 0, 0}, {4, 4, 3});
+  append(mesh, box({4.1, 0, 0}, {8, 4, 3}));
+  const MeshTree tree(mesh);
+  const Vec3 on_wall(4, 1.7, 1.1);
+  const auto hit = tree.first_on_segment(on_wall, Vec3(0.4, 0, 0), 1e-6);
+  ASSERT_GE(hit.triangle, 12);
+  EXPECT_NEAR(hit.distance, 0.1, 1e-12);
+  EXPECT_EQ(tree.first_on_segment(on_wall, Vec3(0.05, 0, 0), 1e-6).triangle, -1);
+  EXPECT_EQ(tree.first_on_segment(Vec3(2, 2, 5), Vec3(1, 0, 0), 0).triangle, -1);
+}
+
+TEST(MeshTree, AnEmptySubsetAnswersWithNothing) {
+  const TriangleMesh mesh = box({0, 0, 0}, {1, 1, 1});
+  const MeshTree tree(mesh, {});
+  EXPECT_TRUE(tree.empty());
+  EXPECT_EQ(tree.nearest({0, 0, 0}).triangle, -1);
+}
+
+}  // namespace
+}  // namespace roomcut
