@@ -35,7 +35,8 @@ struct Problem {
 std::string to_string(const Problem& problem);
 
 /// The only exception that stages throw on purpose; caught once, in run_stage() (common/cli).
-/// Carries one problem or, for hand-edited files, all problems of the file. The exit code is the first problem's.
+/// Carries one problem or, for hand-edited files, all problems of the file. The exit code is the first
+/// problem's.
 class StageError : public std::runtime_error {
  public:
   explicit StageError(std::vector<Problem> problems);

@@ -11,8 +11,8 @@ using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;
 
 /// An infinite line in the horizontal plane in Hesse form: n(theta)·p = d with n = (cos theta, sin theta).
-/// theta in [0, pi) [rad], d in metres from the frame's origin. d moves by lever arm × angle: compare distances between
-/// lines at a support's centroid, never by d.
+/// theta in [0, pi) [rad], d in metres from the frame's origin. d moves by lever arm × angle: compare
+/// distances between lines at a support's centroid, never by d.
 struct Line2 {
   double theta = 0;
   double d = 0;

@@ -5,8 +5,9 @@
 
 namespace roomcut {
 
-/// Counter-based random numbers: a pure function of (seed, stream, counter), so that results do not depend on which
-/// thread draws them or in what order. The mixing is SplitMix64's finaliser (Steele, Lea, Flood 2014), applied per word.
+/// Counter-based random numbers: a pure function of (seed, stream, counter), so that results do not depend on
+/// which thread draws them or in what order. The mixing is SplitMix64's finaliser (Steele, Lea, Flood 2014),
+/// applied per word.
 constexpr std::uint64_t mix64(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15ULL;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;

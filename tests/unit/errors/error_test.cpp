@@ -29,8 +29,8 @@ std::set<std::string> all_matches(const std::string& text, const std::regex& pat
 }
 
 TEST(Errors, AProblemIsPrintedWithCodePlaceCauseAndHint) {
-  const Problem problem{errors::kLinesDegenerate, "edits/wall_lines.geojson: features[17]", "both ends are equal",
-                        "delete the feature or move an end"};
+  const Problem problem{errors::kLinesDegenerate, "edits/wall_lines.geojson: features[17]",
+                        "both ends are equal", "delete the feature or move an end"};
   EXPECT_EQ(to_string(problem),
             "error[L07] edits/wall_lines.geojson: features[17]: both ends are equal\n"
             "hint: delete the feature or move an end\n");
@@ -42,11 +42,14 @@ TEST(Errors, TheExitCodeIsTheFirstProblems) {
   EXPECT_EQ(error.problems().size(), 2U);
 }
 
-TEST(Errors, AnErrorWithoutAProblemIsABug) { EXPECT_THROW(StageError({}), std::logic_error); }
+TEST(Errors, AnErrorWithoutAProblemIsABug) {
+  EXPECT_THROW(StageError({}), std::logic_error);
+}
 
 TEST(Errors, EveryCodeHasAParagraphInTheCatalogueAndTheOtherWayRound) {
   const auto declared = all_matches(read("/common/errors/codes.h"), std::regex("\\{\"([A-Z][0-9]{2})\""));
-  const auto documented = all_matches(read("/schemas/errors.md"), std::regex("- \\*\\*([A-Z][0-9]{2})\\*\\*"));
+  const auto documented =
+      all_matches(read("/schemas/errors.md"), std::regex("- \\*\\*([A-Z][0-9]{2})\\*\\*"));
   EXPECT_GT(declared.size(), 40U);
   EXPECT_EQ(declared, documented);
 }

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "common/picture/image.h"
+
+namespace roomcut {
+
+/// Dark blue to yellow, evenly perceived and safe for colour-blind readers (shape of viridis); t is clamped
+/// to 0 … 1.
+Colour sequential_colour(double t);
+/// Blue over white to orange for t from -1 to 1.
+Colour diverging_colour(double t);
+/// Eight colours that colour-blind readers can tell apart (Okabe and Ito 2008); index is taken modulo 8.
+Colour categorical_colour(int index);
+/// "#rrggbb"
+std::string hex(Colour colour);
+
+}  // namespace roomcut

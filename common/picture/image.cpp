@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/picture/image.h"
+
+#include <png.h>
+
+#include <stdexcept>
+#include <string_view>
+
+#include "common/artefact/atomic_file.h"
+
+namespace roomcut {
+
+Image::Image(int width, int height, Colour background)
+    : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * height, background) {}
+
+Image halved(const Image& image) {
+  Image half(image.width() / 2, image.height() / 2);
+  for (int y = 0; y < half.height(); ++y) {
+    for (int x = 0; x < half.width(); ++x) {
+      const Colour a = image.get(2 * x, 2 * y), b = image.get(2 * x + 1, 2 * y);
+      const Colour c = image.get(2 * x, 2 * y + 1), d = image.get(2 * x + 1, 2 * y + 1);
+      const auto mean = [](int p, int q, int r, int s) {
+        return static_cast<std::uint8_t>((p + q + r + s + 2) / 4);
+      };
+      half.set(x, y, {mean(a.r, b.r, c.r, d.r), mean(a.g, b.g, c.g, d.g), mean(a.b, b.b, c.b, d.b)});
+    }
+  }
+  return half;
+}
+
+std::vector<std::uint8_t> encode_png(const Image& image) {
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  png.width = static_cast<png_uint_32>(image.width());
+  png.height = static_cast<png_uint_32>(image.height());
+  png.format = PNG_FORMAT_RGB;
+  png_alloc_size_t size = 0;
+  static_assert(sizeof(Colour) == 3, "pixels are handed to libpng as they lie");
+  if (png_image_write_to_memory(&png, nullptr, &size, 0, image.pixels().data(), 0, nullptr) == 0) {
+    throw std::runtime_error(std::string("libpng: ") + png.message);
+  }
+  std::vector<std::uint8_t> bytes(size);
+  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, image.pixels().data(), 0, nullptr) == 0) {
+    throw std::runtime_error(std::string("libpng: ") + png.message);
+  }
+  bytes.resize(size);
+  return bytes;
+}
+
+void write_png(const std::filesystem::path& path, const Image& image) {
+  const auto bytes = encode_png(image);
+  write_text_file(path, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
+
+}  // namespace roomcut

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace roomcut {
+
+struct Colour {
+  std::uint8_t r = 0, g = 0, b = 0;
+  friend bool operator==(const Colour&, const Colour&) = default;
+};
+
+/// An RGB picture, rows from top to bottom. Pixels outside are ignored by set().
+class Image {
+ public:
+  Image(int width, int height, Colour background = {255, 255, 255});
+  int width() const { return width_; }
+  int height() const { return height_; }
+  void set(int x, int y, Colour colour) {
+    if (x >= 0 && y >= 0 && x < width_ && y < height_) {
+      pixels_[static_cast<std::size_t>(y) * width_ + x] = colour;
+    }
+  }
+  Colour get(int x, int y) const { return pixels_[static_cast<std::size_t>(y) * width_ + x]; }
+  const std::vector<Colour>& pixels() const { return pixels_; }
+
+ private:
+  int width_, height_;
+  std::vector<Colour> pixels_;
+};
+
+/// Half the size: each pixel the mean of 2 × 2. Drawing at double size and halving smooths edges.
+Image halved(const Image& image);
+
+/// The bytes of a PNG file (libpng, no time stamp: equal pictures give equal bytes).
+std::vector<std::uint8_t> encode_png(const Image& image);
+
+/// Publishes a PNG file whole or not at all. Throws StageError(kCannotWrite).
+void write_png(const std::filesystem::path& path, const Image& image);
+
+}  // namespace roomcut
