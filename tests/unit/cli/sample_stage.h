@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "common/artefact/h5.h"
+#include "common/cli/run_stage.h"
+#include "tests/unit/artefact/temporary_folder.h"
+
+namespace roomcut::test {
+
+/// A stage with one of everything.
+inline StageInfo sample_info() {
+  StageInfo info;
+  info.name = "slice";
+  info.revision = 7;
+  info.summary = "A sample.";
+  info.inputs = {{.name = "cloud", .default_path = "10_ingest/cloud.h5", .description = "points"},
+                 {.name = "edit",
+                  .default_path = "edits/e.txt",
+                  .description = "edit",
+                  .optional = true,
+                  .by_bytes = true}};
+  info.outputs = {{.name = "slices", .default_path = "20_slice/slices.h5", .description = "slices"}};
+  info.options = {{"up", "z", "which way is up", {"x", "y", "z"}}};
+  return info;
+}
+
+struct Outcome {
+  int exit_code = -1;
+  std::string out;
+  std::string err;
+};
+
+/// Runs a stage in this process. `width` is its one parameter.
+inline Outcome run_sample(
+    const std::vector<std::string>& arguments,
+    const std::function<void(StageRun&, double)>& body = [](StageRun&, double) {},
+    const StageInfo& info = sample_info()) {
+  std::vector<std::string> words{info.name};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) {
+    argv.push_back(word.data());
+  }
+  argv.push_back(nullptr);
+  double width = 0.5;
+  ParameterTable table{number("width_m", width, "m", 0, 10, "How wide.")};
+  ::testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStderr();
+  Outcome outcome;
+  outcome.exit_code = run_stage(static_cast<int>(words.size()), argv.data(), info, table,
+                                [&](StageRun& run) { body(run, width); });
+  outcome.err = ::testing::internal::GetCapturedStderr();
+  outcome.out = ::testing::internal::GetCapturedStdout();
+  return outcome;
+}
+
+}  // namespace roomcut::test
