@@ -11,27 +11,30 @@ namespace roomcut {
 
 /// A peak of the vertical histogram: the height of floors and ceilings (paper §2, horizontal slicing).
 struct Level {
-  double z = 0;         ///< weighted mean height of the band [m]
-  double lo = 0, hi = 0;  ///< the horizontal structure slice around it [m]
-  double area_m2 = 0;   ///< area of horizontal surface in the band
+  double z = 0;             ///< weighted mean height of the band [m]
+  double lo = 0, hi = 0;    ///< the horizontal structure slice around it [m]
+  double area_m2 = 0;       ///< area of horizontal surface in the band
   double component_m2 = 0;  ///< its largest connected component
-  bool cap = false;     ///< not a peak: closes the building where walls go on past the last peak
+  bool cap = false;         ///< not a peak: closes the building where walls go on past the last peak
 };
 
 /// Area of horizontal surface per height bin.
 struct VerticalHistogram {
-  double z0 = 0;     ///< lower edge of bin 0 [m]
+  double z0 = 0;  ///< lower edge of bin 0 [m]
   double bin_m = 0;
   std::vector<double> area_m2;
 };
 
-/// The wall evidence of one wall slice (the space between two neighbouring levels): occupied cells of a square grid.
+/// The wall evidence of one wall slice (the space between two neighbouring levels): occupied cells of a
+/// square grid.
 struct OccupancyGrid {
   std::vector<std::int32_t> ix, iy;  ///< cell indices: floor(x / tau), floor(y / tau); sorted by (iy, ix)
   std::vector<float> x, y;           ///< centroid of the cell's points [m]
-  std::vector<float> coverage;       ///< share of the slice's height that is occupied, density-corrected, 0 … 1
-  std::vector<float> weight_m;       ///< length of wall the cell speaks for: coverage × tau × min(1, height / 0.25 m) [m]
-  std::vector<std::uint8_t> azimuth; ///< mean azimuth of the wall points, in the steps of common/cloud
+  std::vector<float> coverage;  ///< share of the slice's height that is occupied, density-corrected, 0 … 1
+  std::vector<float>
+      weight_m;  ///< length of wall the cell speaks for: coverage × tau × min(1, height / 0.25 m) [m]
+  std::vector<float> area_m2;         ///< surface that the cell's points stand for: its weight in a fit [m^2]
+  std::vector<std::uint8_t> azimuth;  ///< mean azimuth of the wall points, in the steps of common/cloud
   std::vector<std::uint8_t> azimuth_trust;  ///< 0 = no wall points, 255 = all agree
   std::size_t size() const { return ix.size(); }
 };
@@ -40,11 +43,11 @@ struct Slices {
   Frame frame;
   Vec3 bbox_min{0, 0, 0}, bbox_max{0, 0, 0};  ///< [m], local
   double noise_m = 0;
-  double density = 0;      ///< [1/m^2]
-  double tau_m = 0;        ///< edge of the occupancy cells (paper: grid-size tau)
+  double density = 0;  ///< [1/m^2]
+  double tau_m = 0;    ///< edge of the occupancy cells (paper: grid-size tau)
   VerticalHistogram histogram;
-  std::vector<Level> levels;                ///< ascending, at least 2
-  std::vector<OccupancyGrid> wall_slices;   ///< levels.size() - 1: slice k lies between levels k and k+1
+  std::vector<Level> levels;               ///< ascending, at least 2
+  std::vector<OccupancyGrid> wall_slices;  ///< levels.size() - 1: slice k lies between levels k and k+1
 };
 
 }  // namespace roomcut

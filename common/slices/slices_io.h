@@ -8,7 +8,8 @@
 
 namespace roomcut {
 
-/// Reads slices.h5. Errors: kArtefact… (common/artefact/h5.h). With `grids` false the occupancy grids stay empty.
+/// Reads slices.h5. Errors: kArtefact… (common/artefact/h5.h). With `grids` false the occupancy grids stay
+/// empty.
 Slices read_slices(const std::filesystem::path& path, bool grids = true);
 /// Returns whether the payload is new.
 bool write_slices(const std::filesystem::path& path, const Slices& slices, const Provenance& provenance);

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/detect_lines/detect_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "common/errors/codes.h"
+#include "common/errors/error.h"
+#include "stages/detect_lines/merge_lines.h"
+
+namespace roomcut {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// Everything that was derived from noise and extent.
+struct Rules {
+  FitRules fit;
+  MergeRules merge;
+  double angle_step = 0, distance_step = 0;
+  Vec2 centre{0, 0};
+  double radius_m = 0;
+};
+
+double resolve(const std::optional<double>& given, double derived, const char* name, const char* why,
+               std::vector<DetectLinesChoice>& choices) {
+  if (given) return *given;
+  choices.push_back({name, derived, why});
+  return derived;
+}
+
+Rules derive_rules(const Slices& slices, const WallCells& cells, const DetectLinesParams& params,
+                   std::vector<DetectLinesChoice>& choices) {
+  Rules rules;
+  const double noise = slices.noise_m;
+  const double inlier = std::max(0.02, 2.5 * noise);
+  rules.fit.inlier_m = resolve(params.inlier_m, inlier, "inlier_m", "max(2 cm, 2.5 x noise)", choices);
+  rules.fit.inlier_angle_rad = params.inlier_angle_rad;
+  rules.fit.cauchy_m = std::max(0.01, noise);
+  rules.fit.bin_m = 2 * slices.tau_m;
+  rules.fit.max_gap_m = params.max_gap_m;
+  const double merge = std::clamp(3.5 * noise, 0.04, 0.06);
+  rules.merge.distance_m = resolve(params.merge_m, merge, "merge_m", "3.5 x noise, 4 ... 6 cm", choices);
+  rules.merge.angle_rad = params.merge_angle_rad;
+
+  const auto [x0, x1] = std::minmax_element(cells.x.begin(), cells.x.end());
+  const auto [y0, y1] = std::minmax_element(cells.y.begin(), cells.y.end());
+  rules.centre = {0.5 * (*x0 + *x1), 0.5 * (*y0 + *y1)};
+  rules.radius_m = 0.5 * std::hypot(*x1 - *x0, *y1 - *y0);
+  // Two faces 8 cm apart must not blur into each other over the building's half diagonal.
+  const double angle = std::clamp(0.08 / (2 * std::max(1.0, rules.radius_m)) / kDegree, 0.1, 0.25);
+  rules.angle_step = kDegree * resolve(params.hough_angle_deg, angle, "hough_angle_deg",
+                                       "8 cm / (2 x half diagonal), 0.1 ... 0.25 deg", choices);
+  const double distance = std::clamp(noise, 0.01, 0.02);
+  rules.distance_step =
+      resolve(params.hough_distance_m, distance, "hough_distance_m", "noise, 1 ... 2 cm", choices);
+  return rules;
+}
+
+HoughPicture picture_of(const HoughAccumulator& votes, const Rules& rules) {
+  constexpr std::size_t kAngles = 360, kDistances = 512;
+  HoughPicture picture;
+  const std::size_t per_angle = (votes.angles() + kAngles - 1) / kAngles;
+  const std::size_t per_distance = (votes.distances() + kDistances - 1) / kDistances;
+  picture.angles = (votes.angles() + per_angle - 1) / per_angle;
+  picture.distances = (votes.distances() + per_distance - 1) / per_distance;
+  picture.angle_step = static_cast<double>(per_angle) * votes.angle_step();
+  picture.distance_step = static_cast<double>(per_distance) * votes.distance_step();
+  picture.distance0 = votes.distance0();
+  picture.centre = rules.centre;
+  picture.votes_m.assign(picture.angles * picture.distances, 0);
+  for (std::size_t a = 0; a < votes.angles(); ++a) {
+    for (std::size_t d = 0; d < votes.distances(); ++d) {
+      float& pixel = picture.votes_m[a / per_angle * picture.distances + d / per_distance];
+      pixel = std::max(pixel, static_cast<float>(votes.votes_m(a, d)));
+    }
+  }
+  return picture;
+}
+
+/// The greedy search: highest peak, fit, take its cells' votes back.
+class LineSearch {
+ public:
+  LineSearch(WallCells& cells, const Rules& rules, const DetectLinesParams& params)
+      : cells_(cells),
+        rules_(rules),
+        params_(params),
+        votes_(rules.centre, rules.radius_m, rules.angle_step, rules.distance_step) {
+    for (std::uint32_t i = 0; i < cells.size(); ++i) {
+      if (cells.boundary[i] != 0) free_.push_back(i);
+    }
+    for (const std::uint32_t i : free_) vote(i, +1);
+  }
+
+  const HoughAccumulator& votes() const { return votes_; }
+
+  std::vector<LineCandidate> run() {
+    std::vector<LineCandidate> found;
+    for (;;) {
+      const HoughAccumulator::Peak peak = votes_.peak();
+      if (peak.votes_m < 0.5 * params_.min_support_m) return found;
+      if (!take_line(peak.line, found)) votes_.suppress(peak);
+    }
+  }
+
+ private:
+  void vote(std::uint32_t i, int sign) {
+    votes_.vote({cells_.x[i], cells_.y[i]}, static_cast<double>(cells_.theta[i]), params_.vote_window_rad,
+                static_cast<double>(cells_.weight_m[i]), sign);
+  }
+
+  void take_out(const CellIndices& taken) {
+    for (const std::uint32_t i : taken) vote(i, -1);
+    CellIndices left;
+    left.reserve(free_.size());
+    std::set_difference(free_.begin(), free_.end(), taken.begin(), taken.end(), std::back_inserter(left));
+    free_.swap(left);
+  }
+
+  /// The strongest support near `start` is fitted alone; other supports on the same line join it when they do
+  /// not pull it. False when nothing lies there.
+  bool take_line(const Line2& start, std::vector<LineCandidate>& found) {
+    const double wide = rules_.fit.inlier_m + rules_.distance_step;
+    const CellIndices near = inliers(cells_, free_, start, rules_.fit, wide);
+    if (near.empty()) return false;
+    const Support seed = supports(cells_, near, start, rules_.fit).front();
+    const Line2 line = fit_line(cells_, seed.cells, start, rules_.fit);
+    const CellIndices on_line = inliers(cells_, free_, line, rules_.fit, rules_.fit.inlier_m);
+    if (on_line.empty()) return false;
+    bool strongest = true;
+    for (Support& support : supports(cells_, on_line, line, rules_.fit)) {
+      const bool long_enough = support.support_m >= params_.min_support_m;
+      if (!strongest && (!long_enough || !collinear(support, line))) continue;
+      take_out(support.cells);
+      if (long_enough) found.push_back({line, std::move(support)});
+      strongest = false;
+    }
+    return true;
+  }
+
+  bool collinear(const Support& support, const Line2& line) const {
+    const FitQuality fit = quality(cells_, support.cells, line);
+    return std::abs(fit.mean_offset_m) <= std::max(0.005, 0.5 * rules_.fit.cauchy_m);
+  }
+
+  WallCells& cells_;
+  const Rules& rules_;
+  const DetectLinesParams& params_;
+  HoughAccumulator votes_;
+  CellIndices free_;
+};
+
+WallLine to_wall_line(const LineCandidate& candidate, const WallCells& cells, std::size_t index) {
+  const std::string number = std::to_string(index + 1);
+  const FitQuality fit = quality(cells, candidate.support.cells, candidate.line);
+  WallLine wall;
+  wall.id = "w" + std::string(4 - std::min<std::size_t>(4, number.size()), '0') + number;
+  wall.a = candidate.line.at(candidate.support.t0);
+  wall.b = candidate.line.at(candidate.support.t1);
+  wall.support_m = candidate.support.support_m;
+  wall.rms_m = fit.rms_m;
+  wall.sigma_offset_m = fit.sigma_offset_m;
+  wall.sigma_angle_rad = fit.sigma_angle_rad;
+  return wall;
+}
+
+[[noreturn]] void no_lines(const WallCells& cells, const DetectLinesParams& params) {
+  const auto boundary = std::count(cells.boundary.begin(), cells.boundary.end(), std::uint8_t{1});
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "no wall line: %zu occupied cells, %td of them linear, none of them in a row of %.2f m",
+                cells.size(), boundary, params.min_support_m);
+  throw StageError(
+      errors::kNoWallLines, "detect_lines", text,
+      "walls must be upright; for a very sparse scan raise slice.tau_m or lower detect_lines.min_support_m");
+}
+
+}  // namespace
+
+DetectLinesResult detect_lines(const Slices& slices, const DetectLinesParams& params) {
+  DetectLinesResult result;
+  result.cells = classify_cells(slices, params.linearity);
+  WallCells& cells = result.cells;
+  if (cells.size() == 0) no_lines(cells, params);
+  const Rules rules = derive_rules(slices, cells, params, result.choices);
+  LineSearch search(cells, rules, params);
+  result.hough = picture_of(search.votes(), rules);
+  std::vector<LineCandidate> found = search.run();
+  const std::size_t before = found.size();
+  found = merge_near_duplicates(cells, std::move(found), rules.merge, rules.fit);
+  result.merged = before - found.size();
+  if (found.empty()) no_lines(cells, params);
+
+  result.lines.frame = slices.frame;
+  result.lines.bbox_min = slices.bbox_min.head<2>();
+  result.lines.bbox_max = slices.bbox_max.head<2>();
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    result.lines.lines.push_back(to_wall_line(found[i], cells, i));
+    for (const std::uint32_t cell : found[i].support.cells) cells.line[cell] = static_cast<std::int32_t>(i);
+  }
+  return result;
+}
+
+}  // namespace roomcut

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/detect_lines/merge_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace roomcut {
+namespace {
+
+Vec2 centre(const LineCandidate& candidate) {
+  return candidate.line.at(0.5 * (candidate.support.t0 + candidate.support.t1));
+}
+
+bool stronger(const LineCandidate& a, const LineCandidate& b) {
+  return std::make_tuple(-a.support.support_m, a.line.theta, a.line.d, a.support.t0) <
+         std::make_tuple(-b.support.support_m, b.line.theta, b.line.d, b.support.t0);
+}
+
+/// The weaker line's interval, seen along the stronger one.
+std::pair<double, double> interval_on(const Line2& line, const LineCandidate& weaker) {
+  const double a = line.along(weaker.line.at(weaker.support.t0));
+  const double b = line.along(weaker.line.at(weaker.support.t1));
+  return std::minmax(a, b);
+}
+
+bool duplicates(const LineCandidate& kept, const LineCandidate& weaker, const MergeRules& rules) {
+  if (angle_between(kept.line.theta, weaker.line.theta) >= rules.angle_rad) return false;
+  if (std::abs(kept.line.distance(centre(weaker))) >= rules.distance_m) return false;
+  const auto [t0, t1] = interval_on(kept.line, weaker);
+  return t0 <= kept.support.t1 + rules.reach_m && t1 >= kept.support.t0 - rules.reach_m;
+}
+
+void take_over(const WallCells& cells, LineCandidate& kept, const LineCandidate& weaker,
+               const FitRules& fit) {
+  CellIndices joined;
+  std::merge(kept.support.cells.begin(), kept.support.cells.end(), weaker.support.cells.begin(),
+             weaker.support.cells.end(), std::back_inserter(joined));
+  FitRules one_piece = fit;
+  one_piece.max_gap_m = 1e9;
+  double support_m = 0;
+  for (const Support& support : supports(cells, joined, kept.line, one_piece)) support_m += support.support_m;
+  const auto [t0, t1] = interval_on(kept.line, weaker);
+  kept.support = {std::min(kept.support.t0, t0), std::max(kept.support.t1, t1), support_m, std::move(joined)};
+}
+
+}  // namespace
+
+std::vector<LineCandidate> merge_near_duplicates(const WallCells& cells, std::vector<LineCandidate> lines,
+                                                 const MergeRules& rules, const FitRules& fit) {
+  std::sort(lines.begin(), lines.end(), stronger);
+  std::vector<LineCandidate> kept;
+  for (LineCandidate& line : lines) {
+    const auto twin = std::find_if(kept.begin(), kept.end(),
+                                   [&](const LineCandidate& k) { return duplicates(k, line, rules); });
+    if (twin == kept.end()) {
+      kept.push_back(std::move(line));
+    } else {
+      take_over(cells, *twin, line, fit);
+    }
+  }
+  std::sort(kept.begin(), kept.end(), stronger);
+  return kept;
+}
+
+}  // namespace roomcut

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "stages/detect_lines/line_fit.h"
+
+namespace roomcut {
+
+/// A line with its support, before it gets an id.
+struct LineCandidate {
+  Line2 line;
+  Support support;
+};
+
+struct MergeRules {
+  double distance_m = 0;  ///< lines nearer than this, at the weaker one's support centre, are one
+  double angle_rad = 0;
+  double reach_m = 2.0;  ///< supports farther apart along the line do not meet in the partition
+};
+
+/// Joins near-duplicates to the stronger line, which keeps its place and takes over cells and extent: one
+/// doubled line flips everything behind it in the rays. The two faces of a thin wall stay two as long as they
+/// are distance_m apart. Returns the remaining lines, strongest first, ties by position. Deterministic.
+std::vector<LineCandidate> merge_near_duplicates(const WallCells& cells, std::vector<LineCandidate> lines,
+                                                 const MergeRules& rules, const FitRules& fit);
+
+}  // namespace roomcut

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "common/slices/slices.h"
+#include "stages/slice/surfaces.h"
+
+namespace roomcut {
+
+/// How levels are told apart; slice.h derives it from noise and density.
+struct LevelRules {
+  double noise_m = 0;
+  double bandwidth_m = 0;       ///< Gaussian mean shift
+  double raster_m = 0;          ///< of the cells
+  double min_component_m2 = 0;  ///< upper bound: half of the largest surface is enough in a small room
+};
+
+/// A mode of the density of horizontal area over height, with its basin: the range from which mean shift
+/// leads to it.
+struct HeightMode {
+  double z = 0, lo = 0, hi = 0;  ///< [m]
+  double drift_m = 0;            ///< of the surfaces in the basin, mean weighted by area
+};
+
+/// Modes of the density of horizontal area, ascending. Each cell is a Gaussian of its area, as wide as the
+/// bandwidth or as 1.5 times the drift of its surface: one bandwidth would either tear drifting floors apart
+/// or join ceilings that differ by a hand's breadth. Modes nearer than max(2.5 cm, 4 noise) are one.
+/// Deterministic.
+std::vector<HeightMode> height_modes(const std::vector<SurfaceCell>& cells, const LevelRules& rules);
+
+/// Levels, ascending: the modes whose band, cut off where the density's gradient flattens, holds a connected
+/// surface of min(rules.min_component_m2, half of the largest). Paper §2, horizontal slicing. `rejected` gets
+/// the others.
+std::vector<Level> find_levels(const HeightSurvey& survey, const std::vector<SurfaceCell>& cells,
+                               const LevelRules& rules, std::vector<Level>* rejected = nullptr);
+
+/// Adds a level where upright surface goes on farther than `reach_m` beyond the lowest or highest level: the
+/// floor or ceiling there was not seen. The last 1 % of the upright area (at most 1 m^2) may stick out of the
+/// cap.
+void add_caps(std::vector<Level>& levels, const VerticalHistogram& upright, double reach_m);
+
+}  // namespace roomcut

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/cli/run_stage.h"
+#include "common/cloud/cloud_io.h"
+#include "common/slices/slices_io.h"
+#include "stages/slice/slice.h"
+
+namespace {
+
+using namespace roomcut;
+
+ParameterTable parameters(SliceParams& p) {
+  return {
+      auto_number("bandwidth_m", p.bandwidth_m, "m", 0.002, 0.5,
+                  "Bandwidth of the mean shift that finds the peaks of the height histogram."),
+      auto_number("raster_m", p.raster_m, "m", 0.02, 1.0,
+                  "Edge of the plan raster in which horizontal surfaces are connected."),
+      auto_number("min_component_m2", p.min_component_m2, "m^2", 0.1, 100.0,
+                  "Smallest connected horizontal surface that makes a level."),
+      auto_number("tau_m", p.tau_m, "m", 0.01, 0.5,
+                  "Edge of the occupancy cells of a wall slice (the paper's tau)."),
+      number("cap_reach_m", p.cap_reach_m, "m", 0.05, 5.0,
+             "Walls that go on farther past the last level get a cap there."),
+      number("tall_slice_m", p.tall_slice_m, "m", 0.0, 100.0,
+             "Wall slices higher than this count evidence in their top part only."),
+      number("evidence_share", p.evidence_share, "1", 0.05, 1.0,
+             "That top part, as a share of the slice's height."),
+  };
+}
+
+void report(StageRun& run, const SliceResult& result) {
+  for (const SliceChoice& choice : result.choices) run.chose(choice.parameter, choice.value, choice.why);
+  const Slices& slices = result.slices;
+  std::size_t cells = 0;
+  for (const OccupancyGrid& grid : slices.wall_slices) cells += grid.size();
+  for (const Level& level : slices.levels) run.count(level.cap ? "level (cap)" : "level", level.z, "m");
+  run.count("levels", static_cast<double>(slices.levels.size()));
+  run.count("surfaces too small for a level", static_cast<double>(result.rejected.size()));
+  run.count("wall cells", static_cast<double>(cells));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  SliceParams params;
+  StageInfo info{"slice",
+                 1,
+                 "Finds floors and ceilings in the height histogram and the wall evidence between them.",
+                 {{"cloud", "10_ingest/cloud.h5", "points in tiles, from ingest"}},
+                 {{"slices", "20_slice/slices.h5", "levels, histogram, wall slices"}},
+                 {}};
+  return run_stage(argc, argv, info, parameters(params), [&params](StageRun& run) {
+    const CloudReader cloud(run.input("cloud"));
+    constexpr std::uint64_t kPasses = 2;
+    Progress progress = run.progress("points", kPasses * cloud.header().points);
+    const TileSource tiles = [&](const TileVisitor& visit) {
+      cloud.for_each_tile(visit, [&](std::uint64_t points) { progress.advance(points); });
+    };
+    const SliceResult result = slice_cloud(cloud.header(), tiles, params);
+    write_slices(run.output("slices"), result.slices, run.provenance());
+    report(run, result);
+  });
+}

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/slice/slice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+
+#include "common/errors/codes.h"
+#include "stages/slice/levels.h"
+#include "stages/slice/surfaces.h"
+#include "stages/slice/survey.h"
+#include "stages/slice/wall_slices.h"
+
+namespace roomcut {
+namespace {
+
+constexpr double kHistogramBin = 0.005;  // m; below any useful bandwidth
+
+/// Takes the user's value, or the derived one and notes why.
+double resolve(const std::optional<double>& given, double derived, const char* name, const char* why,
+               std::vector<SliceChoice>& choices) {
+  if (given) return *given;
+  choices.push_back({name, derived, why});
+  return derived;
+}
+
+LevelRules level_rules(const CloudHeader& header, const SliceParams& params,
+                       std::vector<SliceChoice>& choices) {
+  const double spacing = header.density > 0 ? 1 / std::sqrt(header.density) : 0.1;
+  LevelRules rules;
+  rules.noise_m = header.noise_m;
+  rules.bandwidth_m = resolve(params.bandwidth_m, std::max(0.01, 2 * header.noise_m), "bandwidth_m",
+                              "max(1 cm, 2 x noise)", choices);
+  rules.raster_m = resolve(params.raster_m, std::clamp(2.5 * spacing, 0.10, 0.40), "raster_m",
+                           "2.5 x point spacing, 10 ... 40 cm", choices);
+  rules.min_component_m2 =
+      resolve(params.min_component_m2, 4.0, "min_component_m2",
+              "larger than tables; half of the largest surface if that is less", choices);
+  return rules;
+}
+
+double choose_tau(const CloudHeader& header, const SliceParams& params, std::vector<SliceChoice>& choices) {
+  // About three points per cell of a room's evidence height (0.6 m), and cells wider than twice the noise.
+  const double sparse = header.density > 0 ? 3 / (0.6 * header.density) : 0.1;
+  const double tau = std::clamp(std::max(sparse, 2 * header.noise_m), 0.04, 0.10);
+  return resolve(params.tau_m, tau, "tau_m", "3 points per cell, 2 x noise, 4 ... 10 cm", choices);
+}
+
+std::string format(const char* text, double a, double b, double c) {
+  char buffer[256];
+  std::snprintf(buffer, sizeof buffer, text, a, b, c);
+  return buffer;
+}
+
+double total(const VerticalHistogram& histogram) {
+  return std::accumulate(histogram.area_m2.begin(), histogram.area_m2.end(), 0.0);
+}
+
+[[noreturn]] void no_levels(const HeightSurvey& survey, const std::vector<Level>& rejected) {
+  Level best;
+  for (const Level& level : rejected) {
+    if (level.component_m2 > best.component_m2) best = level;
+  }
+  throw StageError(
+      errors::kNoLevels, "slice",
+      format(
+          "no floor or ceiling: %.2f m^2 of horizontal surface in all, the largest connected piece %.2f m^2 "
+          "at %.2f m",
+          total(survey.horizontal), best.component_m2, best.z),
+      "is z really up (ingest --up) and the unit right (ingest --unit)?");
+}
+
+void require_levels(const HeightSurvey& survey, const std::vector<Level>& levels,
+                    const std::vector<Level>& rejected) {
+  if (levels.empty()) no_levels(survey, rejected);
+  if (levels.size() == 1) {
+    throw StageError(
+        errors::kNoLevels, "slice",
+        format("only one level, at %.2f m with %.2f m^2, and no wall goes on past it (%.2f m^2 of upright "
+               "surface in all)",
+               levels[0].z, levels[0].area_m2, total(survey.upright)),
+        "a model needs a floor and a ceiling, or walls beside a floor");
+  }
+}
+
+void require_vertical(const HeightSurvey& survey, const std::vector<OccupancyGrid>& grids) {
+  const bool any =
+      std::any_of(grids.begin(), grids.end(), [](const OccupancyGrid& grid) { return grid.size() > 0; });
+  if (any) return;
+  throw StageError(
+      errors::kNoVertical, "slice",
+      format("no wall: %.2f m^2 of upright surface against %.2f m^2 of horizontal surface, none of it "
+             "between the levels",
+             total(survey.upright), total(survey.horizontal), 0),
+      "is z really up (ingest --up)?");
+}
+
+}  // namespace
+
+SliceResult slice_cloud(const CloudHeader& header, const TileSource& tiles, const SliceParams& params) {
+  SliceResult result;
+  const LevelRules rules = level_rules(header, params, result.choices);
+  const HeightSurvey survey = survey_heights(header, tiles, rules.raster_m, kHistogramBin);
+  std::vector<SurfaceCell> cells = surface_cells(survey.patches, rules.noise_m);
+  measure_drift(cells, rules.raster_m, rules.noise_m);
+
+  Slices& slices = result.slices;
+  slices.frame = header.frame;
+  slices.bbox_min = header.bbox_min;
+  slices.bbox_max = header.bbox_max;
+  slices.noise_m = header.noise_m;
+  slices.density = header.density;
+  slices.histogram = survey.horizontal;
+  slices.levels = find_levels(survey, cells, rules, &result.rejected);
+  add_caps(slices.levels, survey.upright, params.cap_reach_m);
+  require_levels(survey, slices.levels, result.rejected);
+
+  slices.tau_m = choose_tau(header, params, result.choices);
+  const auto ranges = evidence_ranges(slices.levels, params.tall_slice_m, params.evidence_share);
+  slices.wall_slices = occupy_wall_slices(tiles, ranges, slices.tau_m);
+  require_vertical(survey, slices.wall_slices);
+  return result;
+}
+
+}  // namespace roomcut

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/slices/slices.h"
+#include "stages/slice/tile_source.h"
+
+namespace roomcut {
+
+/// Horizontal points of one plan cell and height bin, as sums.
+struct SurfacePatch {
+  std::int32_t ix = 0, iy = 0;  ///< plan cell: floor(x / raster), floor(y / raster)
+  std::int32_t count = 0;       ///< points
+  double z = 0;                 ///< mean height weighted by area [m]
+  double area_m2 = 0;           ///< surface area that the points stand for
+};
+
+/// What one pass over the points tells of heights.
+struct HeightSurvey {
+  double raster_m = 0;
+  std::vector<SurfacePatch> patches;  ///< sorted by (iy, ix, z)
+  VerticalHistogram horizontal;       ///< area of horizontal points
+  VerticalHistogram upright;          ///< area of wall and sloped points, same bins
+};
+
+/// Sums horizontal, wall and sloped points over heights (one pass). Every point weighs the area it stands
+/// for, which takes the anisotropy of the scan out of the histogram. Integer sums: the result does not depend
+/// on order or threads.
+HeightSurvey survey_heights(const CloudHeader& header, const TileSource& tiles, double raster_m,
+                            double bin_m);
+
+}  // namespace roomcut
