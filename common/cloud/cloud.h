@@ -20,7 +20,9 @@ enum class SurfaceClass : std::uint8_t {
 
 inline constexpr int kAzimuthSteps = 256;  ///< azimuth byte k stands for theta = (k + 1/2) * pi / 256
 
-inline double azimuth_of(std::uint8_t step) { return (step + 0.5) * std::numbers::pi / kAzimuthSteps; }
+inline double azimuth_of(std::uint8_t step) {
+  return (step + 0.5) * std::numbers::pi / kAzimuthSteps;
+}
 
 /// The points of one tile (a column of the cloud, square in plan), structure of arrays, local metres.
 /// Inside a tile the points are sorted by surface class, then by voxel.
@@ -37,13 +39,14 @@ struct CloudHeader {
   Frame frame;
   std::uint64_t points = 0;
   Vec3 bbox_min{0, 0, 0}, bbox_max{0, 0, 0};  ///< of the kept points, local metres
-  double noise_m = 0;     ///< standard deviation of points off their plane, median over planar voxels [m]
-  double density = 0;     ///< points per square metre of surface, median over points
+  double noise_m = 0;  ///< standard deviation of points off their plane, median over planar voxels [m]
+  double density = 0;  ///< points per square metre of surface, median over points
   double tile_edge_m = 0;
-  double voxel_edge_m = 0;                  ///< finest voxel of the moments
-  std::vector<std::int32_t> tile_ix, tile_iy;   ///< tile i covers [ix, ix+1) × [iy, iy+1) tile edges from the local origin; sorted by (iy, ix)
-  std::vector<std::uint64_t> tile_offset;       ///< first point of tile i; size tiles+1
-  std::vector<Vec3> stations;                   ///< scanner positions, where the file names them (local metres)
+  double voxel_edge_m = 0;                     ///< finest voxel of the moments
+  std::vector<std::int32_t> tile_ix, tile_iy;  ///< tile i covers [ix, ix+1) × [iy, iy+1) tile edges from the
+                                               ///< local origin; sorted by (iy, ix)
+  std::vector<std::uint64_t> tile_offset;      ///< first point of tile i; size tiles+1
+  std::vector<Vec3> stations;  ///< scanner positions, where the file names them (local metres)
 };
 
 }  // namespace roomcut

@@ -25,8 +25,8 @@ class CloudReader {
   /// Reads tile `index` into `tile` (its vectors are resized, capacity is reused). Thread-safe.
   void read_tile(std::size_t index, CloudTile& tile) const;
 
-  /// Calls visit(index, tile) once per tile, in parallel on TBB, in no particular order; results must be combined in an
-  /// order-free way or by tile index. `done(points)` is called after each tile, for progress.
+  /// Calls visit(index, tile) once per tile, in parallel on TBB, in no particular order; results must be
+  /// combined in an order-free way or by tile index. `done(points)` is called after each tile, for progress.
   void for_each_tile(const std::function<void(std::size_t, const CloudTile&)>& visit,
                      const std::function<void(std::uint64_t)>& done = {}) const;
 
@@ -35,7 +35,8 @@ class CloudReader {
   std::unique_ptr<State> state_;
 };
 
-/// Writes a cloud.h5 in one sequence of tiles. The header's tile table, bbox, noise and density are set by finish().
+/// Writes a cloud.h5 in one sequence of tiles. The header's tile table, bbox, noise and density are set by
+/// finish().
 class CloudWriter {
  public:
   /// `points` and `tiles` are exact totals.
