@@ -47,13 +47,16 @@ struct DrawnLine {
   WallLine line;  ///< id empty when the feature has none; measured properties are not read
 };
 
-/// The features as lines. Reports kLinesGeometry, kLinesCoordinates, kLinesDegenerate, kLinesProperty.
+/// The features as lines. Reports kLinesGeometry, kLinesCoordinates, kLinesProperty.
 std::vector<DrawnLine> read_edit_features(const Json& features, const Vec2& shift, EditReport& report);
 
 /// "features[17]" or "features[17] (wall_id w0017)".
 std::string feature_place(std::size_t index, const std::string& id);
 
-/// Reports kLinesOutside for lines far outside the base's box, naming the likely cause.
+/// Below it a line has no direction worth the name [m].
+inline constexpr double kShortestLine_m = 1e-3;
+
+/// Reports kLinesOutside for lines far outside the base's box, naming the likely cause, and kLinesDegenerate.
 void check_edit_extent(const std::vector<DrawnLine>& drawn, const WallLines& base, EditReport& report);
 
 /// Gives ids, decides what is detected, edited or added, and takes from the base what editors drop. Result

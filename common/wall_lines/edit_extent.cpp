@@ -54,6 +54,15 @@ Cause likely_cause(const Box& points, const Box& allowed, const Frame& frame) {
           "move the line into the scan, or delete the feature"};
 }
 
+void check_lengths(const std::vector<DrawnLine>& drawn, EditReport& report) {
+  for (const DrawnLine& d : drawn) {
+    if (d.line.length() < kShortestLine_m) {
+      report.problem(errors::kLinesDegenerate, feature_place(d.feature, d.line.id), "both ends are equal",
+                     "delete the feature or move an end");
+    }
+  }
+}
+
 }  // namespace
 
 void check_edit_extent(const std::vector<DrawnLine>& drawn, const WallLines& base, EditReport& report) {
@@ -69,6 +78,9 @@ void check_edit_extent(const std::vector<DrawnLine>& drawn, const WallLines& bas
   }
   const auto count = static_cast<std::size_t>(std::count_if(drawn.begin(), drawn.end(), outside));
   const bool shrunk = drawn.size() > 1 && all.diagonal() < kShrunk * 2 * margin;
+  if (!shrunk) {
+    check_lengths(drawn, report);
+  }
   if (count == drawn.size() || shrunk) {
     if (!drawn.empty()) {
       const Cause cause = shrunk ? Cause{"these look like degrees", "save the layer in its own local metres"}

@@ -12,7 +12,6 @@ namespace roomcut {
 
 namespace {
 
-constexpr double kShortest_m = 1e-3;  ///< below it a line has no direction worth the name
 constexpr std::size_t kLongestId = 64;
 
 std::string trimmed(const std::string& text) {
@@ -210,16 +209,15 @@ class FeatureReader {
     return without_short_pieces(points);
   }
 
-  std::vector<Vec2> without_short_pieces(const std::vector<Vec2>& points) {
+  static std::vector<Vec2> without_short_pieces(const std::vector<Vec2>& points) {
     std::vector<Vec2> kept{points.front()};
     for (const Vec2& point : points) {
-      if ((point - kept.back()).norm() >= kShortest_m) {
+      if ((point - kept.back()).norm() >= kShortestLine_m) {
         kept.push_back(point);
       }
     }
     if (kept.size() < 2) {
-      problem(errors::kLinesDegenerate, "both ends are equal", "delete the feature or move an end");
-      return {};
+      kept.push_back(points.back());  // check_edit_extent() judges it, when it knows the file's unit
     }
     return kept;
   }
