@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <set>
+#include <stdexcept>
+
+#include "common/cells/cells_io.h"
+#include "common/cli/run_stage.h"
+#include "common/slices/slices_io.h"
+#include "common/wall_lines/wall_lines_io.h"
+#include "stages/partition/partition.h"
+
+namespace {
+
+using namespace roomcut;
+
+StageInfo info() {
+  StageInfo stage;
+  stage.name = "partition";
+  stage.revision = 1;
+  stage.summary = "Cuts the plan into convex cells along the wall lines and stacks them between the levels";
+  stage.inputs = {{"lines", "40_accept_lines/wall_lines.geojson", "Accepted (or refined) wall lines"},
+                  {"slices", "20_slice/slices.h5", "Levels of floors and ceilings"}};
+  stage.outputs = {{"cells-out", "50_partition/cells.h5", "The cell complex"}};
+  return stage;
+}
+
+ParameterTable partition_parameters(PartitionParams& p) {
+  return {
+      number("margin_m", p.margin_m, "m", 0.05, 100.0,
+             "Distance of the bounding box from the scan and the lines."),
+      number("extend_m", p.extend_m, "m", 0.0, 10000.0,
+             "A line cuts the faces that its support, lengthened by this at both ends, enters."),
+      integer("max_cells", p.max_cells, "1", 1000, 200000000,
+              "More cells than this are an error, not a long wait."),
+  };
+}
+
+void body(StageRun& run, const PartitionParams& params) {
+  const WallLinesFile lines = read_wall_lines(run.input("lines"));
+  const Slices slices = read_slices(run.input("slices"), false);
+  std::vector<double> levels;
+  for (const Level& level : slices.levels) {
+    levels.push_back(level.z);
+  }
+  const Partition result = partition(lines.content, levels, params);
+  const CellComplex& complex = result.complex;
+  const std::string violation = find_violation(complex);
+  if (!violation.empty()) {
+    throw std::logic_error("partition made an invalid complex: " + violation);
+  }
+  write_cells(run.output("cells-out"), complex, run.provenance());
+
+  run.count("lines", static_cast<double>(complex.lines.size()));
+  run.count("lines that cut nothing new", static_cast<double>(result.uncut.size()));
+  run.count("plan faces", static_cast<double>(complex.faces()));
+  run.count("plan edges", static_cast<double>(complex.edges.size()));
+  run.count("layers", static_cast<double>(complex.layers()));
+  run.count("cells", static_cast<double>(complex.cells()));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  PartitionParams params;
+  return run_stage(argc, argv, info(), partition_parameters(params),
+                   [&](StageRun& run) { body(run, params); });
+}

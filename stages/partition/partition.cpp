@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/partition/partition.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "common/errors/codes.h"
+#include "stages/partition/insert_line.h"
+#include "stages/partition/subdivision.h"
+#include "stages/partition/to_complex.h"
+
+namespace roomcut {
+
+namespace {
+
+CellComplex::Line complex_line(const WallLine& wall, std::size_t layers) {
+  if (!(wall.length() > kPlanSnap_m)) {
+    throw StageError(errors::kLinesDegenerate, "wall line " + wall.id, "both ends are equal",
+                     "delete the line or move an end");
+  }
+  CellComplex::Line line{wall.id, wall.line(), 0, 0, {}};
+  std::tie(line.t0, line.t1) = std::minmax({line.line.along(wall.a), line.line.along(wall.b)});
+  for (const int slice : wall.levels.value_or(std::vector<int>{})) {
+    if (slice < 0 || static_cast<std::size_t>(slice) >= layers) {
+      throw StageError(errors::kLinesProperty, "wall line " + wall.id,
+                       "levels: there is no wall slice " + std::to_string(slice) + " (the scan has 0 ... " +
+                           std::to_string(layers - 1) + ")",
+                       "set levels to null for all slices");
+    }
+    line.layers.push_back(slice);
+  }
+  std::sort(line.layers.begin(), line.layers.end());
+  line.layers.erase(std::unique(line.layers.begin(), line.layers.end()), line.layers.end());
+  return line;
+}
+
+/// Indices of the lines, strongest first. A line drawn by hand has no counted support: its length stands for
+/// it.
+std::vector<std::int32_t> by_falling_support(const std::vector<WallLine>& lines) {
+  std::vector<std::int32_t> order(lines.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto strength = [&](std::int32_t i) {
+    return lines[i].support_m > 0 ? lines[i].support_m : lines[i].length();
+  };
+  std::sort(order.begin(), order.end(), [&](std::int32_t i, std::int32_t j) {
+    const double a = strength(i);
+    const double b = strength(j);
+    return a != b ? a > b : lines[i].id < lines[j].id;
+  });
+  return order;
+}
+
+void bounding_box(const WallLines& lines, double margin, Vec2& low, Vec2& high) {
+  low = lines.bbox_min;
+  high = lines.bbox_max;
+  for (const WallLine& line : lines.lines) {
+    low = low.cwiseMin(line.a).cwiseMin(line.b);
+    high = high.cwiseMax(line.a).cwiseMax(line.b);
+  }
+  low.array() -= margin;
+  high.array() += margin;
+}
+
+void check_budget(std::size_t faces, std::size_t layers, const PartitionParams& params) {
+  if (faces * layers > static_cast<std::size_t>(params.max_cells)) {
+    throw StageError(
+        errors::kTooComplex, "partition",
+        "more than " + std::to_string(params.max_cells) + " cells (" + std::to_string(faces) +
+            " plan faces in " + std::to_string(layers) + " layers)",
+        "see whether detect_lines found clutter; lower partition.extend_m or raise partition.max_cells");
+  }
+}
+
+}  // namespace
+
+Partition partition(const WallLines& lines, const std::vector<double>& levels,
+                    const PartitionParams& params) {
+  if (lines.lines.empty()) {
+    throw StageError(errors::kNoCells, "partition", "there is no wall line to cut the plan with",
+                     "see detect_lines' messages, or add lines by hand (make edit-lines)");
+  }
+  Partition result;
+  CellComplex& complex = result.complex;
+  complex.frame = lines.frame;
+  complex.levels = levels;
+  for (const WallLine& wall : lines.lines) {
+    complex.lines.push_back(complex_line(wall, complex.layers()));
+  }
+  Vec2 low;
+  Vec2 high;
+  bounding_box(lines, params.margin_m, low, high);
+  Subdivision plan(low, high);
+  LineInserter inserter(plan);
+  for (const std::int32_t i : by_falling_support(lines.lines)) {
+    const CellComplex::Line& line = complex.lines[i];
+    if (inserter.insert(line.line, line.t0 - params.extend_m, line.t1 + params.extend_m, i) == 0) {
+      result.uncut.push_back(line.wall_id);
+    }
+    check_budget(plan.face_start.size(), complex.layers(), params);
+  }
+  result.faces_before_pruning = plan.face_start.size();
+  to_complex(plan, complex);
+  return result;
+}
+
+}  // namespace roomcut

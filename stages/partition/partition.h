@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "common/cells/cell_complex.h"
+#include "common/wall_lines/wall_line.h"
+#include "stages/partition/params.h"
+
+namespace roomcut {
+
+struct Partition {
+  CellComplex complex;
+  std::vector<std::string> uncut;  ///< wall_ids of lines that cut nothing: doubles, or outside the box
+  std::size_t faces_before_pruning = 0;
+};
+
+/// Space partitioning of paper §2: cuts the plan's rectangle (bounding box of scan and lines, and a margin)
+/// by the wall lines and stacks it between the levels [m, ascending, at least 2]. Lines are cut in by falling
+/// support (ties: id), each through the faces that its support, lengthened by extend_m at both ends, enters.
+/// Pure function of its arguments. Throws StageError: kNoCells without lines, kLinesDegenerate,
+/// kLinesProperty (a wall slice that there is not), kTooComplex.
+Partition partition(const WallLines& lines, const std::vector<double>& levels, const PartitionParams& params);
+
+}  // namespace roomcut
