@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "stages/synthesize/sample.h"
+#include "stages/synthesize/truth.h"
+
+namespace roomcut {
+
+/// Writes the scan as binary little-endian PLY (float x, y, z) while it is made: blocks are made in parallel
+/// and written in order, a few of them in memory at a time. Returns the number of points. Throws
+/// StageError(kCannotWrite).
+std::uint64_t write_scan(const std::filesystem::path& path, const Scene& scene, const PointSource& source,
+                         int threads, const std::function<void(std::uint64_t)>& progress);
+
+/// Writes the truth with all copies of the building as OFF. Throws StageError(kCannotWrite).
+void write_truth(const std::filesystem::path& path, const Scene& scene, const Building& building,
+                 const TruthMesh& truth);
+
+/// The content of truth.json (schemas/truth.md).
+nlohmann::json truth_json(const Scene& scene, const Building& building, const TruthMesh& truth,
+                          std::uint64_t points);
+
+}  // namespace roomcut
