@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
 #include <bit>
 #include <charconv>
 
@@ -81,15 +82,16 @@ Handle text_type(std::size_t length) {
   return type;
 }
 
-bool write_attribute(hid_t object, const std::string& name, hid_t file, hid_t memory, const void* value) {
-  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+bool write_attribute(hid_t object, const std::string& name, hid_t file, hid_t memory, const void* value,
+                     hsize_t count = 0) {
+  const Handle space(count == 0 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, nullptr), H5Sclose);
   const Handle attribute(H5Acreate2(object, name.c_str(), file, space.get(), H5P_DEFAULT, H5P_DEFAULT),
                          H5Aclose);
   return attribute.valid() && H5Awrite(attribute.get(), memory, value) >= 0;
 }
 
-/// The attribute, if it is a scalar of the class.
-Handle open_attribute(hid_t object, const std::string& name, H5T_class_t wanted) {
+/// The attribute, if it holds `count` values of the class.
+Handle open_attribute(hid_t object, const std::string& name, H5T_class_t wanted, hssize_t count = 1) {
   if (H5Aexists(object, name.c_str()) <= 0) {
     return {};
   }
@@ -97,7 +99,7 @@ Handle open_attribute(hid_t object, const std::string& name, H5T_class_t wanted)
   const Handle type(H5Aget_type(attribute.get()), H5Tclose);
   const Handle space(H5Aget_space(attribute.get()), H5Sclose);
   if (!attribute.valid() || H5Tget_class(type.get()) != wanted ||
-      H5Sget_simple_extent_npoints(space.get()) != 1) {
+      H5Sget_simple_extent_npoints(space.get()) != count) {
     return {};
   }
   return attribute;
@@ -114,6 +116,14 @@ bool write_number_attribute(hid_t object, const std::string& name, double value)
 }
 bool write_number_attribute(hid_t object, const std::string& name, std::int64_t value) {
   return write_attribute(object, name, H5T_STD_I64LE, H5T_NATIVE_INT64, &value);
+}
+
+bool write_vector_attribute(hid_t object, const std::string& name, const double (&value)[3]) {
+  return write_attribute(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, value, 3);
+}
+bool read_vector_attribute(hid_t object, const std::string& name, double (&value)[3]) {
+  const Handle attribute = open_attribute(object, name, H5T_FLOAT, 3);
+  return attribute.valid() && H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, value) >= 0;
 }
 
 bool read_text_attribute(hid_t object, const std::string& name, std::string& value) {
@@ -169,10 +179,23 @@ void PayloadDigest::dataset(const std::string& path, const std::string& type, co
   }
   entries_["d " + path] = text + " " + sha256;
 }
+namespace {
+
+std::string hex_text(double value) {
+  std::array<char, 40> text{};
+  return {text.data(),
+          std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::hex).ptr};
+}
+
+}  // namespace
+
 void PayloadDigest::attribute(const std::string& object_path, const std::string& name, double value) {
-  char text[40];
-  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::hex).ptr;
-  entries_["a " + object_path + " " + name] = "f64 " + std::string(text, end);
+  entries_["a " + object_path + " " + name] = "f64 " + hex_text(value);
+}
+void PayloadDigest::attribute(const std::string& object_path, const std::string& name,
+                              const double (&value)[3]) {
+  entries_["a " + object_path + " " + name] =
+      "f64 3 " + hex_text(value[0]) + " " + hex_text(value[1]) + " " + hex_text(value[2]);
 }
 void PayloadDigest::attribute(const std::string& object_path, const std::string& name, std::int64_t value) {
   entries_["a " + object_path + " " + name] = "i64 " + std::to_string(value);

@@ -25,6 +25,9 @@ std::string absolute_path(const std::string& path);
 bool write_text_attribute(hid_t object, const std::string& name, const std::string& value);
 bool write_number_attribute(hid_t object, const std::string& name, double value);
 bool write_number_attribute(hid_t object, const std::string& name, std::int64_t value);
+/// Three float64: the one vector that artefacts have as attribute, the frame's origin.
+bool write_vector_attribute(hid_t object, const std::string& name, const double (&value)[3]);
+bool read_vector_attribute(hid_t object, const std::string& name, double (&value)[3]);
 bool read_text_attribute(hid_t object, const std::string& name, std::string& value);
 bool read_number_attribute(hid_t object, const std::string& name, double& value);
 bool read_number_attribute(hid_t object, const std::string& name, std::int64_t& value);
@@ -43,6 +46,7 @@ class PayloadDigest {
   void attribute(const std::string& object_path, const std::string& name, double value);
   void attribute(const std::string& object_path, const std::string& name, std::int64_t value);
   void attribute(const std::string& object_path, const std::string& name, const std::string& value);
+  void attribute(const std::string& object_path, const std::string& name, const double (&value)[3]);
   std::string hex() const;
 
  private:

@@ -185,12 +185,15 @@ struct Visitor {
       std::string text;
       double number = 0;
       std::int64_t integer = 0;
+      double vector[3] = {0, 0, 0};
       if (h5::read_text_attribute(object, name.data(), text)) {
         digest.attribute(path, name.data(), text);
       } else if (h5::read_number_attribute(object, name.data(), number)) {
         digest.attribute(path, name.data(), number);
       } else if (h5::read_number_attribute(object, name.data(), integer)) {
         digest.attribute(path, name.data(), integer);
+      } else if (h5::read_vector_attribute(object, name.data(), vector)) {
+        digest.attribute(path, name.data(), vector);
       }
     }
   }

@@ -142,9 +142,10 @@ H5Reader::H5Reader(const std::filesystem::path& path, ArtefactType expected)
   const AttributeReader frame(path, file, "/frame");
   state_->frame.unit = frame.text("unit");
   state_->frame.up = frame.text("up");
-  state_->frame.origin[0] = frame.number("origin_x");
-  state_->frame.origin[1] = frame.number("origin_y");
-  state_->frame.origin[2] = frame.number("origin_z");
+  const Handle group(H5Gopen2(file, "/frame", H5P_DEFAULT), H5Gclose);
+  if (!h5::read_vector_attribute(group.get(), "origin", state_->frame.origin)) {
+    throw_damaged(path, "/frame", "attribute origin is missing or of another type");
+  }
   state_->provenance = read_provenance(path, file);
   state_->payload = AttributeReader(path, file, "/provenance").text("payload_sha256");
 }

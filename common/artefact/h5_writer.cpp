@@ -86,9 +86,9 @@ H5Writer::H5Writer(const std::filesystem::path& path, ArtefactType type, const P
   }
   attribute("/frame", "unit", frame.unit);
   attribute("/frame", "up", frame.up);
-  attribute("/frame", "origin_x", frame.origin[0]);
-  attribute("/frame", "origin_y", frame.origin[1]);
-  attribute("/frame", "origin_z", frame.origin[2]);
+  const Handle group(H5Gopen2(state_->file.get(), "/frame", H5P_DEFAULT), H5Gclose);
+  state_->require(h5::write_vector_attribute(group.get(), "origin", frame.origin), "/frame@origin");
+  state_->digest.attribute("/frame", "origin", frame.origin);
 }
 
 H5Writer::~H5Writer() = default;
