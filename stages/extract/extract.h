@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/cells/cell_complex.h"
+#include "common/mesh/facet_surface.h"
+#include "common/mesh/mesh_check.h"
+#include "stages/extract/rooms.h"
+#include "stages/extract/storeys.h"
+
+namespace roomcut {
+
+struct ExtractParams {
+  StoreyParams storeys;
+};
+
+/// Areas of the model's surface by kind [m^2].
+struct SurfaceAreas {
+  double floor = 0, ceiling = 0, wall = 0;
+};
+
+/// The model: the border of the empty cells (paper §2, the result of the labelling), and what it measures.
+struct Model {
+  MergedSurface surface;       ///< local metres; normals point out of the empty space
+  std::vector<Space> storeys;  ///< ascending
+  std::vector<Space> rooms;    ///< by storey, then by volume
+  SurfaceAreas areas;
+  double empty_m3 = 0;  ///< sum of the empty cells
+  double unobserved_empty_m3 = 0;
+  double unobserved_solid_m3 = 0;
+  MeshCheck check;
+  std::string
+      fault;  ///< "" or why the mesh must not be used (F1.7: closed, oriented, no self-intersection, volume)
+};
+
+/// Extracts the model. Equal inputs give equal bytes. With wrong labels (surfaces that touch in an edge or a
+/// vertex) the fault is set and the mesh is what could be made. Throws StageError(kEmptyModel) when no cell
+/// is empty.
+Model extract_model(const CellComplex& complex, const Labels& labels, const ExtractParams& params);
+
+}  // namespace roomcut

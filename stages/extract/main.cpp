@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/cells/cells_io.h"
+#include "common/cli/run_stage.h"
+#include "common/errors/codes.h"
+#include "stages/extract/extract.h"
+#include "stages/extract/model_files.h"
+#include "stages/extract/params.h"
+
+namespace {
+
+using namespace roomcut;
+
+StageInfo info() {
+  StageInfo stage;
+  stage.name = "extract";
+  stage.revision = 1;
+  stage.summary = "Turns the labelled cells into a closed model: model.ply, model.obj, summary.json";
+  stage.inputs = {{"cells", "90_final/cells.h5", "Cell decomposition"},
+                  {"weights", "90_final/weights.h5", "Evidence on the faces"},
+                  {"terms", "90_final/data_terms.h5", "Evidence and data term per cell"},
+                  {"labels", "90_final/labels.h5", "Empty and solid cells"}};
+  stage.outputs = {{"ply", "model.ply", "Triangles, with kind, storey and region"},
+                   {"obj", "model.obj", "Polygons, grouped per storey and kind"},
+                   {"summary", "summary.json", "Storeys, rooms, areas, volumes, checks"}};
+  return stage;
+}
+
+// The mesh that failed its check is kept beside the model's place, for whoever looks into it.
+std::filesystem::path rejected_path(std::filesystem::path path) {
+  return path.replace_extension(".rejected.ply");
+}
+
+void body(StageRun& run, const ExtractParams& params) {
+  const CellsFile cells = read_cells(run.input("cells"));
+  read_weights(run.input("weights"), cells);  // refuses files that do not belong together
+  read_data_terms(run.input("terms"), cells);
+  const Labels labels = read_labels(run.input("labels"), cells);
+  const Model model = extract_model(cells.complex, labels, params);
+  const std::filesystem::path rejected = rejected_path(run.output("ply"));
+  if (!model.fault.empty()) {
+    write_model_ply(rejected, model, cells.complex.frame);
+    throw StageError(errors::kMeshInvalid, run.input("labels").string(),
+                     "the model fails its check: " + model.fault,
+                     "please report it with " + rejected.string() + " and the .h5 files beside the labels");
+  }
+  write_model_ply(run.output("ply"), model, cells.complex.frame);
+  write_model_obj(run.output("obj"), model, cells.complex.frame);
+  write_json_artefact(run.output("summary"), artefacts::kSummary, run.provenance(), cells.complex.frame,
+                      summary_json(model, cells.complex, labels));
+  std::filesystem::remove(rejected);
+  run.count("storeys", static_cast<double>(model.storeys.size()));
+  run.count("rooms", static_cast<double>(model.rooms.size()));
+  run.count("volume", model.empty_m3, "m^3");
+  run.count("triangles", static_cast<double>(model.surface.mesh.triangles.size()));
+  run.count("surfaces", static_cast<double>(model.surface.regions.size()));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ExtractParams params;
+  return run_stage(argc, argv, info(), extract_parameters(params), [&](StageRun& run) { body(run, params); });
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/extract/model_files.h"
+
+#include <map>
+#include <utility>
+
+#include "common/artefact/atomic_file.h"
+#include "common/mesh/mesh_io.h"
+
+namespace roomcut {
+
+namespace {
+
+Vec3 origin_of(const Frame& frame) {
+  return {frame.origin[0], frame.origin[1], frame.origin[2]};
+}
+
+const std::vector<std::string> kComments = {
+    "roomcut model: metres, z up, normals point out of the empty space",
+    "kind: 0 floor, 1 ceiling, 2 wall; storey: 0 = lowest"};
+
+}  // namespace
+
+bool write_model_ply(const std::filesystem::path& path, const Model& model, const Frame& frame) {
+  return write_text_file(path, ply_bytes(model.surface.mesh, origin_of(frame), kComments));
+}
+
+bool write_model_obj(const std::filesystem::path& path, const Model& model, const Frame& frame) {
+  std::map<std::pair<int, SurfaceKind>, ObjGroup> groups;
+  for (const SurfaceRegion& region : model.surface.regions) {
+    ObjGroup& group = groups[{region.storey, region.kind}];
+    group.name = "storey_" + std::to_string(region.storey) + "_" + to_string(region.kind);
+    group.polygons.insert(group.polygons.end(), region.polygons.begin(), region.polygons.end());
+  }
+  std::vector<ObjGroup> sorted;
+  for (auto& [key, group] : groups) {
+    sorted.push_back(std::move(group));
+  }
+  return write_text_file(
+      path, obj_text(model.surface.mesh.vertices, sorted, origin_of(frame), {kComments.front()}));
+}
+
+}  // namespace roomcut

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+
+#include "common/artefact/json.h"
+#include "stages/extract/extract.h"
+
+namespace roomcut {
+
+// The end products. The frame's origin is added to all coordinates, so that they lie on the scan.
+
+/// model.ply: triangles with kind (SurfaceKind), storey and region. Returns whether the file is new.
+bool write_model_ply(const std::filesystem::path& path, const Model& model, const Frame& frame);
+/// model.obj: strictly convex polygons in groups storey_<i>_<kind>. OBJ knows no holes, so a region with
+/// holes (or a concave one) is several polygons.
+bool write_model_obj(const std::filesystem::path& path, const Model& model, const Frame& frame);
+/// The members of summary.json (schemas/summary.md).
+Json summary_json(const Model& model, const CellComplex& complex, const Labels& labels);
+
+}  // namespace roomcut

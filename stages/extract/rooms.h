@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "common/cells/cell_complex.h"
+#include "stages/extract/storeys.h"
+
+namespace roomcut {
+
+/// What is known of a space: a room, or all rooms of a storey together. Local metres.
+struct Space {
+  int storey = 0;
+  double floor_z = 0;    ///< height of the largest part of the floor [m]
+  double ceiling_z = 0;  ///< height of the largest part of the ceiling [m]
+  double area_m2 = 0;    ///< of its plan
+  double volume_m3 = 0;
+  double unobserved_m3 = 0;  ///< volume of its cells with too little evidence (Labels::unobserved)
+  Vec2 centre{0, 0};         ///< of its plan's area; may lie outside an L
+  double height() const { return area_m2 > 0 ? volume_m3 / area_m2 : 0; }  ///< mean clear height [m]
+};
+
+/// The connected pieces of empty space within a storey (through faces, not edges), sorted by storey, then by
+/// volume, largest first. Rooms joined by an open doorway in the model are one piece.
+std::vector<Space> find_rooms(const CellComplex& complex, const Labels& labels, const Storeys& storeys);
+
+/// Each storey as a whole.
+std::vector<Space> measure_storeys(const CellComplex& complex, const Labels& labels, const Storeys& storeys);
+
+}  // namespace roomcut

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <numeric>
+
+#include "stages/extract/model_files.h"
+
+namespace roomcut {
+
+namespace {
+
+Json space_json(const Space& space, const Frame& frame) {
+  return {{"floor_z_m", space.floor_z + frame.origin[2]},
+          {"ceiling_z_m", space.ceiling_z + frame.origin[2]},
+          {"height_m", space.height()},
+          {"area_m2", space.area_m2},
+          {"volume_m3", space.volume_m3},
+          {"unobserved_m3", space.unobserved_m3}};
+}
+
+Json check_json(const Model& model) {
+  const MeshCheck& check = model.check;
+  return {{"closed", check.closed()},
+          {"oriented", check.oriented()},
+          {"manifold", check.manifold()},
+          {"self_intersections", check.self_intersections},
+          {"degenerate_triangles", check.degenerate_triangles},
+          {"components", check.components},
+          {"euler", check.euler},
+          {"volume_m3", check.volume_m3},
+          {"cells_m3", model.empty_m3}};
+}
+
+}  // namespace
+
+Json summary_json(const Model& model, const CellComplex& complex, const Labels& labels) {
+  Json storeys = Json::array();
+  for (std::size_t i = 0; i < model.storeys.size(); ++i) {
+    Json storey = space_json(model.storeys[i], complex.frame);
+    storey["storey"] = i;
+    storey["rooms"] = std::count_if(model.rooms.begin(), model.rooms.end(),
+                                    [i](const Space& room) { return room.storey == static_cast<int>(i); });
+    storeys.push_back(std::move(storey));
+  }
+  Json rooms = Json::array();
+  for (const Space& space : model.rooms) {
+    Json room = space_json(space, complex.frame);
+    room["room"] = rooms.size();
+    room["storey"] = space.storey;
+    room["centre_m"] = {space.centre.x() + complex.frame.origin[0],
+                        space.centre.y() + complex.frame.origin[1]};
+    rooms.push_back(std::move(room));
+  }
+  const double area = std::accumulate(model.storeys.begin(), model.storeys.end(), 0.0,
+                                      [](double sum, const Space& storey) { return sum + storey.area_m2; });
+  std::size_t polygons = 0;
+  for (const SurfaceRegion& region : model.surface.regions) {
+    polygons += region.polygons.size();
+  }
+  return {
+      {"storeys", storeys},
+      {"rooms", rooms},
+      {"totals",
+       {{"area_m2", area},
+        {"volume_m3", model.empty_m3},
+        {"floor_m2", model.areas.floor},
+        {"ceiling_m2", model.areas.ceiling},
+        {"wall_m2", model.areas.wall},
+        {"unobserved_empty_m3", model.unobserved_empty_m3},
+        {"unobserved_solid_m3", model.unobserved_solid_m3}}},
+      {"energy",
+       {{"total_m3", labels.energy_m3}, {"data_m3", labels.data_m3}, {"boundary_m3", labels.boundary_m3}}},
+      {"counts",
+       {{"lines", complex.lines.size()},
+        {"levels", complex.levels.size()},
+        {"plan_faces", complex.faces()},
+        {"cells", complex.cells()},
+        {"surfaces", model.surface.regions.size()},
+        {"polygons", polygons},
+        {"triangles", model.surface.mesh.triangles.size()},
+        {"vertices", model.surface.mesh.vertices.size()}}},
+      {"mesh", check_json(model)}};
+}
+
+}  // namespace roomcut
