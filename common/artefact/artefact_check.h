@@ -19,4 +19,8 @@ void check_type_and_version(const std::filesystem::path& path, const std::string
 /// The payload digest that the file at `path` states; empty when there is no such file or it states none.
 std::string stated_payload(const std::filesystem::path& path);
 
+/// The canonical payload digest of a plain JSON artefact's text: all members but `provenance`. "" when it is
+/// not JSON.
+std::string json_payload_sha256(const std::string& text);
+
 }  // namespace roomcut

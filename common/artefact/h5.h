@@ -175,8 +175,12 @@ class H5Reader {
   std::unique_ptr<State> state_;
 };
 
-/// The payload digest of an HDF5 artefact, computed again from everything that the file holds except
-/// /provenance. Reads all data. Errors as H5Reader.
+/// The provenance of an artefact of any type. Errors as H5Reader.
+Provenance read_provenance(const std::filesystem::path& path);
+
+/// The payload digest computed again from everything that the file holds except its provenance: HDF5
+/// artefacts and plain JSON ones (wall_lines.geojson has its own: wall_lines_payload_sha256()). Reads all
+/// data. Errors as H5Reader.
 std::string recompute_payload_sha256(const std::filesystem::path& path);
 
 /// The payload digest stored in an artefact of any type (HDF5, or JSON with a `provenance` member), its type

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <charconv>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <limits>
@@ -215,7 +216,29 @@ herr_t visit(hid_t root, const char* name, const H5O_info_t* info, void* data) {
 
 }  // namespace
 
+Provenance read_provenance(const std::filesystem::path& path) {
+  const InputRecord record = stated(path);
+  if (kind_of(path) == Kind::kHdf5) {
+    int major = 0;
+    int minor = 0;
+    if (std::sscanf(record.schema_version.c_str(), "%d.%d", &major, &minor) != 2) {
+      throw StageError(errors::kArtefactDamaged, path.string(), "states no schema version");
+    }
+    return H5Reader(path, {record.artefact.c_str(), major, minor}).provenance();
+  }
+  try {
+    const Json value = Json::parse(read_text_file(path));
+    return provenance_from_json((value.contains("roomcut") ? value["roomcut"] : value).at("provenance"));
+  } catch (const Json::exception& error) {
+    throw StageError(errors::kArtefactDamaged, path.string(),
+                     std::string("has no provenance: ") + error.what());
+  }
+}
+
 std::string recompute_payload_sha256(const std::filesystem::path& path) {
+  if (kind_of(path) != Kind::kHdf5) {
+    return json_payload_sha256(read_text_file(path));
+  }
   const Handle file = h5::open_for_reading(path);
   Visitor visitor{file.get(), {}, {}};
   if (!file.valid()) {

@@ -90,6 +90,11 @@ Frame frame_from_json(const Json& value) {
   return frame;
 }
 
+std::string json_payload_sha256(const std::string& text) {
+  const Json value = Json::parse(text, nullptr, false);
+  return value.is_object() ? payload_of(value) : std::string();
+}
+
 bool publish_json(const std::filesystem::path& path, const std::string& text,
                   const std::string& payload_sha256) {
   const bool same = stated_payload(path) == payload_sha256 && !payload_sha256.empty();
