@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/raycast/face_walk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace roomcut {
+
+FaceWalk::FaceWalk(const CellComplex& complex, const FaceWeights& weights)
+    : complex_(complex), weights_(weights) {
+  sides_.reserve(complex.face_vertex.size());
+  for (std::size_t f = 0; f < complex.faces(); ++f) {
+    const std::int64_t begin = complex.face_offset[f];
+    const std::int64_t end = complex.face_offset[f + 1];
+    for (std::int64_t i = begin; i < end; ++i) {
+      const std::int64_t next = i + 1 < end ? i + 1 : begin;
+      const Vec2& a =
+          complex.vertices[static_cast<std::size_t>(complex.face_vertex[static_cast<std::size_t>(i)])];
+      const Vec2& b =
+          complex.vertices[static_cast<std::size_t>(complex.face_vertex[static_cast<std::size_t>(next)])];
+      const Vec2 along = (b - a).normalized();
+      const std::int32_t e = complex.face_edge[static_cast<std::size_t>(i)];
+      const CellComplex::Edge& edge = complex.edges[static_cast<std::size_t>(e)];
+      const bool is_left = edge.left == static_cast<std::int32_t>(f);
+      const double nx = along.y();
+      const double ny = -along.x();
+      sides_.push_back({nx, ny, nx * a.x() + ny * a.y(), e, is_left ? edge.right : edge.left, is_left});
+    }
+  }
+}
+
+void FaceWalk::follow(const Ray& ray, std::vector<Crossing>& crossings) const {
+  crossings.clear();
+  const std::size_t edges = complex_.edges.size();
+  const std::size_t faces = complex_.faces();
+  const double dx = ray.direction.x();
+  const double dy = ray.direction.y();
+  const double dz = ray.direction.z();
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  std::size_t face = ray.face;
+  std::size_t layer = ray.layer;
+  double now = 0;
+  std::int32_t came_by = -1;
+  // Every step crosses an edge or a level; rounding at a sliver may not send a ray around for ever.
+  for (std::size_t step = 0; step < edges + complex_.levels.size(); ++step) {
+    double wall_at = kNever;
+    const Side* exit = nullptr;
+    for (std::int64_t i = complex_.face_offset[face]; i < complex_.face_offset[face + 1]; ++i) {
+      const Side& side = sides_[static_cast<std::size_t>(i)];
+      const double speed = side.nx * dx + side.ny * dy;
+      if (speed <= 1e-12 || side.edge == came_by) {
+        continue;
+      }
+      const double at = (side.d - side.nx * ray.origin.x() - side.ny * ray.origin.y()) / speed;
+      if (at < wall_at) {
+        wall_at = at;
+        exit = &side;
+      }
+    }
+    double level_at = kNever;
+    if (dz > 1e-12) {
+      level_at = (complex_.levels[layer + 1] - ray.origin.z()) / dz;
+    } else if (dz < -1e-12) {
+      level_at = (complex_.levels[layer] - ray.origin.z()) / dz;
+    }
+    if (exit == nullptr && level_at == kNever) {
+      return;
+    }
+    if (exit != nullptr && wall_at <= level_at) {
+      now = std::max(now, wall_at);
+      const std::size_t w = layer * edges + static_cast<std::size_t>(exit->edge);
+      const float left = weights_.wall_left[w];
+      const float right = weights_.wall_right[w];
+      crossings.push_back(
+          {now, weights_.wall_omega[w], exit->is_left ? left : right, exit->is_left ? right : left});
+      if (exit->neighbour < 0) {
+        return;
+      }
+      face = static_cast<std::size_t>(exit->neighbour);
+      came_by = exit->edge;
+    } else {
+      now = std::max(now, level_at);
+      const std::size_t level = dz > 0 ? layer + 1 : layer;
+      const std::size_t l = level * faces + face;
+      const float floor = weights_.level_floor[l];
+      const float ceiling = weights_.level_ceiling[l];
+      crossings.push_back({now, weights_.level_omega[l], dz > 0 ? ceiling : floor, dz > 0 ? floor : ceiling});
+      if ((dz > 0 && layer + 1 == complex_.layers()) || (dz < 0 && layer == 0)) {
+        return;
+      }
+      layer = dz > 0 ? layer + 1 : layer - 1;
+    }
+  }
+}
+
+Vec2 FaceWalk::point_in(std::size_t face, double u, double v) const {
+  const auto begin = static_cast<std::size_t>(complex_.face_offset[face]);
+  const auto end = static_cast<std::size_t>(complex_.face_offset[face + 1]);
+  const auto corner = [&](std::size_t i) -> const Vec2& {
+    return complex_.vertices[static_cast<std::size_t>(complex_.face_vertex[i])];
+  };
+  const Vec2& a = corner(begin);
+  const auto twice_area = [&](std::size_t i) {
+    const Vec2 b = corner(i) - a;
+    const Vec2 c = corner(i + 1) - a;
+    return b.x() * c.y() - b.y() * c.x();
+  };
+  double total = 0;
+  for (std::size_t i = begin + 1; i + 1 < end; ++i) {
+    total += twice_area(i);
+  }
+  double rest = u * total;
+  std::size_t i = begin + 1;
+  double here = twice_area(i);
+  for (; i + 2 < end && rest >= here; here = twice_area(++i)) {
+    rest -= here;
+  }
+  // The rest of u is again uniform; folding (s, t) at the diagonal makes the triangle uniform.
+  double s = here > 0 ? std::clamp(rest / here, 0.0, 1.0) : 0.5;
+  double t = v;
+  if (s + t > 1) {
+    s = 1 - s;
+    t = 1 - t;
+  }
+  return a + s * (corner(i) - a) + t * (corner(i + 1) - a);
+}
+
+}  // namespace roomcut

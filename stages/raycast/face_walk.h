@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/cells/cell_complex.h"
+
+namespace roomcut {
+
+/// A face of the complex as a ray meets it.
+struct Crossing {
+  double distance;  ///< along the ray [m]
+  float omega;      ///< covered share
+  float front;      ///< covered share of surface that shows the ray its front: empty on the ray's side
+  float back;       ///< … its back: solid on the ray's side
+};
+
+struct Ray {
+  Vec3 origin;
+  Vec3 direction;           ///< unit vector
+  std::size_t face, layer;  ///< the cell that holds the origin
+};
+
+/// Follows rays from cell to cell through the complex. No search structure: a convex cell is left by the
+/// nearest of its sides, so the crossings come sorted. Steps per ray: the cells it passes.
+class FaceWalk {
+ public:
+  /// Both must outlive the walk.
+  FaceWalk(const CellComplex& complex, const FaceWeights& weights);
+
+  /// All faces that the ray crosses until it leaves the bounding box, nearest first; `crossings` is
+  /// overwritten.
+  void follow(const Ray& ray, std::vector<Crossing>& crossings) const;
+
+  /// A point of the face, uniform by area, from two numbers in [0, 1).
+  Vec2 point_in(std::size_t face, double u, double v) const;
+
+ private:
+  struct Side {
+    double nx, ny, d;  // outward: nx x + ny y = d
+    std::int32_t edge;
+    std::int32_t neighbour;  // -1 = beyond the bounding box
+    bool is_left;            // the face lies left of the edge
+  };
+
+  const CellComplex& complex_;
+  const FaceWeights& weights_;
+  std::vector<Side> sides_;  // parallel to complex.face_vertex
+};
+
+}  // namespace roomcut

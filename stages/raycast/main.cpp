@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/cells/cells_io.h"
+#include "common/cli/run_stage.h"
+#include "stages/raycast/raycast.h"
+
+namespace {
+
+using namespace roomcut;
+
+ParameterTable parameters(RaycastParams& p) {
+  return {
+      integer("rays", p.rays, "1", 2, 4096, "Rays per cell, half of them level, half uniform on the sphere."),
+      choice("evidence", p.evidence, {"combined", "parity"},
+             "combined: all evidences; parity: the paper's share of odd rays alone."),
+      number("surface_depth_m", p.surface_depth_m, "m", 0.0, 10.0,
+             "Volume per square metre with which a cell's own covered faces say on which side it is."),
+  };
+}
+
+void body(StageRun& run, const RaycastParams& params) {
+  const CellsFile cells = read_cells(run.input("cells"));
+  const FaceWeights weights = read_weights(run.input("weights"), cells);
+  const DataTerms terms = cast_rays(cells.complex, weights, params);
+  write_data_terms(run.output("terms-out"), terms, cells, run.provenance());
+
+  double empty = 0;
+  double unclear = 0;
+  for (std::size_t c = 0; c < terms.beta.size(); ++c) {
+    const double volume =
+        cells.complex.area(c % cells.complex.faces()) * cells.complex.height(c / cells.complex.faces());
+    empty += terms.beta[c] > 0.5F ? volume : 0;
+    unclear += terms.beta[c] > 0.3F && terms.beta[c] < 0.7F ? volume : 0;
+  }
+  run.count("cells", static_cast<double>(terms.beta.size()));
+  run.count("rays", static_cast<double>(terms.beta.size()) * params.rays);
+  run.count("volume that the data call empty", empty, "m^3");
+  run.count("volume in doubt (beta 0.3 to 0.7)", unclear, "m^3");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  RaycastParams params;
+  StageInfo info;
+  info.name = "raycast";
+  info.revision = 1;
+  info.summary = "Gathers what speaks for each cell being empty or solid, by rays and by its own faces";
+  info.inputs = {{"cells", "50_partition/cells.h5", "Cell complex"},
+                 {"weights", "55_weigh_faces/weights.h5", "Weights of its faces"}};
+  info.outputs = {{"terms-out", "60_raycast/data_terms.h5", "Evidence and data term per cell"}};
+  return run_stage(argc, argv, info, parameters(params), [&params](StageRun& run) { body(run, params); });
+}

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+namespace roomcut {
+
+/// Parameters of raycast.
+struct RaycastParams {
+  int rays = 64;                      ///< rays per cell: half of them level, half uniform on the sphere
+  std::string evidence = "combined";  ///< "combined": all evidences; "parity": the paper's kappa alone
+  double surface_depth_m = 0.1;  ///< volume per square metre with which a cell's own covered faces speak [m]
+};
+
+}  // namespace roomcut

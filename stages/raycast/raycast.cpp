@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/raycast/raycast.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+
+namespace roomcut {
+namespace {
+
+double sigmoid(double x) {
+  return 1 / (1 + std::exp(-x));
+}
+
+}  // namespace
+
+double empty_log_odds(const CellEvidence& e) {
+  return 6 * (e.vertical - 0.2) + 3 * (e.around - 0.15) + 4 * (e.kappa - 0.5);
+}
+
+DataTerms cast_rays(const CellComplex& complex, const FaceWeights& weights, const RaycastParams& params) {
+  const std::size_t cells = complex.cells();
+  DataTerms terms;
+  terms.kappa.resize(cells);
+  terms.vertical.resize(cells);
+  terms.around.resize(cells);
+  terms.winding.resize(cells);
+  terms.surface_m2.resize(cells);
+  terms.observed.resize(cells);
+  terms.beta.resize(cells);
+  terms.d_empty.resize(cells);
+  terms.d_solid.resize(cells);
+  const FaceWalk walk(complex, weights);
+  const bool parity = params.evidence == "parity";
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, cells, 16), [&](const tbb::blocked_range<std::size_t>& range) {
+        std::vector<Crossing> scratch;
+        for (std::size_t c = range.begin(); c < range.end(); ++c) {
+          const std::size_t face = c % complex.faces();
+          const std::size_t layer = c / complex.faces();
+          const CellEvidence e = gather_evidence(complex, weights, walk, face, layer, params.rays, scratch);
+          terms.kappa[c] = static_cast<float>(e.kappa);
+          terms.vertical[c] = static_cast<float>(e.vertical);
+          terms.around[c] = static_cast<float>(e.around);
+          terms.winding[c] = static_cast<float>(e.winding);
+          terms.surface_m2[c] = static_cast<float>(e.surface_m2);
+          terms.observed[c] = static_cast<float>(e.observed);
+          const double beta = parity ? sigmoid(10 * (e.kappa - 0.5)) : sigmoid(empty_log_odds(e));
+          const double depth = parity ? 0 : params.surface_depth_m;
+          const double volume = complex.area(face) * complex.height(layer);
+          terms.beta[c] = static_cast<float>(beta);
+          terms.d_empty[c] = volume * (1 - beta) + depth * e.back_m2;
+          terms.d_solid[c] = volume * beta + depth * e.front_m2;
+        }
+      });
+  return terms;
+}
+
+}  // namespace roomcut

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "common/cells/cell_complex.h"
+#include "stages/raycast/cell_evidence.h"
+#include "stages/raycast/params.h"
+
+namespace roomcut {
+
+/// Log-odds of a cell being empty (see README.md for where the weights come from).
+double empty_log_odds(const CellEvidence& evidence);
+
+/// Data term of every cell (paper §2), in parallel; the same for any number of threads. `weights` must belong
+/// to `complex`.
+DataTerms cast_rays(const CellComplex& complex, const FaceWeights& weights, const RaycastParams& params);
+
+}  // namespace roomcut

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "common/cells/cell_complex.h"
+
+namespace roomcut {
+
+/// A square grid over the plan of the complex.
+struct PlanGrid {
+  Vec2 low{0, 0};
+  double cell = 1;
+  int nx = 0, ny = 0;
+
+  PlanGrid(const CellComplex& complex, double cell_edge) : cell(cell_edge) {
+    Vec2 high = low;
+    if (!complex.vertices.empty()) {
+      low = high = complex.vertices.front();
+    }
+    for (const Vec2& v : complex.vertices) {
+      low = low.cwiseMin(v);
+      high = high.cwiseMax(v);
+    }
+    nx = std::max(1, static_cast<int>(std::ceil((high.x() - low.x()) / cell)));
+    ny = std::max(1, static_cast<int>(std::ceil((high.y() - low.y()) / cell)));
+  }
+  std::size_t size() const { return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny); }
+  int column(double x) const { return static_cast<int>(std::floor((x - low.x()) / cell)); }
+  int row(double y) const { return static_cast<int>(std::floor((y - low.y()) / cell)); }
+  bool contains(int ix, int iy) const { return ix >= 0 && iy >= 0 && ix < nx && iy < ny; }
+  std::size_t index(int ix, int iy) const {
+    return static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(ix);
+  }
+};
+
+}  // namespace roomcut

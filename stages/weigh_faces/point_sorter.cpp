@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/weigh_faces/point_sorter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace roomcut {
+
+PointSorter::NearLevel PointSorter::nearest_level(double z) const {
+  const std::vector<double>& levels = complex_.levels;
+  auto above = static_cast<std::size_t>(std::lower_bound(levels.begin(), levels.end(), z) - levels.begin());
+  if (above == levels.size() || (above > 0 && z - levels[above - 1] <= levels[above] - z)) {
+    --above;
+  }
+  const double dz = z - levels[above];
+  double reach = std::numeric_limits<double>::infinity();
+  if (dz > 0 && above + 1 < levels.size()) {
+    reach = 0.5 * (levels[above + 1] - levels[above]);
+  } else if (dz < 0 && above > 0) {
+    reach = 0.5 * (levels[above] - levels[above - 1]);
+  }
+  return {above, dz, reach};
+}
+
+std::int32_t PointSorter::wall_of(SurfaceClass surface, double theta) const {
+  std::int32_t best = -1;
+  double best_e = tolerances_.wall_reach;
+  if (surface == SurfaceClass::kWall) {
+    for (const Candidate& c : candidates_) {
+      if (std::abs(c.e) < best_e && angle_between(line(c.line).theta, theta) <= tolerances_.azimuth) {
+        best = c.line;
+        best_e = std::abs(c.e);
+      }
+    }
+  } else if (surface == SurfaceClass::kNone) {
+    int around = 0;
+    for (const Candidate& c : candidates_) {
+      around += std::abs(c.e) < tolerances_.wall_alone ? 1 : 0;
+      if (std::abs(c.e) < best_e) {
+        best = c.line;
+        best_e = std::abs(c.e);
+      }
+    }
+    best = around == 1 ? best : -1;  // in a corner it could be either wall's
+  }
+  return best;
+}
+
+bool PointSorter::parallel(std::int32_t a, std::int32_t b) const {
+  return angle_between(line(a).theta, line(b).theta) <= tolerances_.azimuth;
+}
+
+void PointSorter::add_beside_walls(const Vec2& p, double z, const NearLevel& near, bool on_level) {
+  for (const Candidate& c : candidates_) {
+    const double distance = std::abs(c.e);
+    if (distance < tolerances_.beside_low || distance > tolerances_.beside_high) {
+      continue;
+    }
+    // A parallel line at the point or between: the point speaks of that one, not of this.
+    const Vec2 foot = p - c.e * line(c.line).normal;
+    const bool hidden = std::any_of(candidates_.begin(), candidates_.end(), [&](const Candidate& other) {
+      if (other.line == c.line || !parallel(other.line, c.line)) {
+        return false;
+      }
+      return std::abs(other.e) < tolerances_.beside_low || other.e * line(other.line).distance(foot) < 0;
+    });
+    if (hidden) {
+      continue;
+    }
+    const double t = line(c.line).along(p);
+    if (on_level) {
+      walls_.add_level_beside(c.line, c.e > 0, t, near.level);
+    } else {
+      walls_.add_beside(c.line, c.e > 0, t, z);
+    }
+  }
+}
+
+void PointSorter::add_beside_levels(const Vec2& p, double z) {
+  const std::vector<double>& levels = complex_.levels;
+  const auto above =
+      static_cast<std::size_t>(std::lower_bound(levels.begin(), levels.end(), z) - levels.begin());
+  const auto in_band = [this](double gap) {
+    return gap >= tolerances_.over_low && gap <= tolerances_.over_high;
+  };
+  if (above > 0 && in_band(z - levels[above - 1])) {
+    levels_.add_over(above - 1, p);
+  }
+  if (above < levels.size() && in_band(levels[above] - z)) {
+    levels_.add_under(above, p);
+  }
+}
+
+void PointSorter::add_inside(const Vec2& p, double z, const NearLevel& near) {
+  const auto near_wall = [this](const Candidate& c) { return std::abs(c.e) < tolerances_.beside_low; };
+  if (std::abs(near.dz) < tolerances_.over_low || z < complex_.levels.front() || z > complex_.levels.back() ||
+      std::any_of(candidates_.begin(), candidates_.end(), near_wall)) {
+    return;
+  }
+  const std::int64_t piece = levels_.faces().find(p);
+  if (piece >= 0) {
+    const auto face = static_cast<std::size_t>(levels_.faces().piece(static_cast<std::size_t>(piece)).face);
+    inside_.add(complex_.cell(face, near.dz > 0 ? near.level : near.level - 1));
+  }
+}
+
+void PointSorter::add(const Vec3& point, SurfaceClass surface, std::uint8_t azimuth) {
+  const Vec2 p = point.head<2>();
+  const double z = point.z();
+  candidates_.clear();
+  const NearLevel near = nearest_level(z);
+  const std::size_t layer =
+      std::min(near.dz < 0 && near.level > 0 ? near.level - 1 : near.level, complex_.layers() - 1);
+  for (const std::int32_t index : lines_.near(p)) {
+    if (line(index).carries[layer]) {
+      candidates_.push_back({index, line(index).distance(p)});
+    }
+  }
+  const double off = std::abs(near.dz);
+  const std::int32_t wall = wall_of(surface, azimuth_of(azimuth));
+  if (wall >= 0) {
+    walls_.add_on(wall, line(wall).along(p), z);
+  }
+  const bool flat =
+      surface == SurfaceClass::kHorizontal && off < std::min(tolerances_.level_reach, near.reach);
+  const bool loose =
+      surface == SurfaceClass::kNone && wall < 0 && off < std::min(tolerances_.level_tight, near.reach);
+  const bool on_level = flat || loose;
+  const bool sloped = surface == SurfaceClass::kSloped && off < std::min(tolerances_.slope_reach, near.reach);
+  if (on_level || sloped) {
+    const std::int64_t piece = levels_.faces().find(p);
+    if (piece >= 0 && on_level) {
+      levels_.add_on(near.level, static_cast<std::size_t>(piece));
+    } else if (piece >= 0) {
+      levels_.add_sloped(near.level, static_cast<std::size_t>(piece));
+    }
+  }
+  add_beside_walls(p, z, near, on_level);
+  if (!on_level && !sloped) {
+    add_beside_levels(p, z);
+    if (wall < 0) {
+      add_inside(p, z, near);
+    }
+  }
+}
+
+}  // namespace roomcut

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/weigh_faces/weigh_faces.h"
+
+#include "stages/weigh_faces/level_rasters.h"
+#include "stages/weigh_faces/line_grid.h"
+#include "stages/weigh_faces/point_sorter.h"
+#include "stages/weigh_faces/wall_rasters.h"
+
+namespace roomcut {
+
+struct FaceWeigher::State {
+  State(const CellComplex& c, const CloudHeader& cloud, const WeighFacesParams& params)
+      : complex(c),
+        tolerances(resolve_tolerances(params, cloud)),
+        lines(c, std::max(tolerances.wall_alone, tolerances.beside_high)),
+        walls(c, tolerances),
+        levels(c, tolerances),
+        inside(c.cells()) {}
+
+  const CellComplex& complex;
+  Tolerances tolerances;
+  LineGrid lines;
+  WallRasters walls;
+  LevelRasters levels;
+  SparseCounts inside;
+};
+
+FaceWeigher::FaceWeigher(const CellComplex& complex, const CloudHeader& cloud, const WeighFacesParams& params)
+    : state_(std::make_unique<State>(complex, cloud, params)) {}
+FaceWeigher::~FaceWeigher() = default;
+
+const Tolerances& FaceWeigher::tolerances() const {
+  return state_->tolerances;
+}
+
+void FaceWeigher::add(const CloudTile& tile) {
+  PointSorter sorter(state_->complex, state_->tolerances, state_->lines, state_->walls, state_->levels,
+                     state_->inside);
+  for (std::size_t i = 0; i < tile.size(); ++i) {
+    sorter.add({tile.x[i], tile.y[i], tile.z[i]}, static_cast<SurfaceClass>(tile.surface[i]),
+               tile.azimuth[i]);
+  }
+}
+
+FaceWeights FaceWeigher::weigh() const {
+  FaceWeights weights;
+  state_->walls.weigh(weights);
+  state_->levels.weigh(weights);
+  weights.cell_points.resize(state_->complex.cells());
+  for (std::size_t c = 0; c < weights.cell_points.size(); ++c) {
+    weights.cell_points[c] = state_->inside.at(c);
+  }
+  return weights;
+}
+
+}  // namespace roomcut

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/raycast/raycast.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "tests/unit/raycast/room_weights.h"
+#include "tests/unit/weigh_faces/grid_complex.h"
+
+namespace roomcut {
+namespace {
+
+struct Cube {
+  CellComplex complex = grid_complex({-2, 0, 3, 5}, {-2, 0, 3, 5}, {-1, 0, 3, 4});
+  std::size_t room = complex.cell(4, 1);
+  std::vector<bool> empty = [this] {
+    std::vector<bool> e(complex.cells(), false);
+    e[room] = true;
+    return e;
+  }();
+  FaceWeights weights = weights_of(complex, empty);
+};
+
+TEST(CastRays, ACubeIsEmptyInsideAndSolidOutsideByEveryEvidence) {
+  const Cube cube;
+  const DataTerms t = cast_rays(cube.complex, cube.weights, {});
+  EXPECT_EQ(t.kappa[cube.room], 1) << "a ray from an empty cell crosses an odd number of permanent faces";
+  EXPECT_NEAR(t.winding[cube.room], 1, 1e-6);
+  EXPECT_NEAR(t.around[cube.room], 1, 1e-6);
+  EXPECT_NEAR(t.vertical[cube.room], 1, 1e-6);
+  EXPECT_NEAR(t.surface_m2[cube.room], 6 * 9.0, 1e-4);
+  EXPECT_GT(t.beta[cube.room], 0.95);
+  for (std::size_t c = 0; c < cube.complex.cells(); ++c) {
+    if (c != cube.room) {
+      EXPECT_EQ(t.kappa[c], 0) << c;
+      EXPECT_NEAR(t.winding[c], 0, 1e-6) << c;
+      EXPECT_LE(t.around[c], 0) << c;
+      EXPECT_LE(t.vertical[c], 0) << c;
+      EXPECT_LE(t.surface_m2[c], 0) << c;
+      EXPECT_LT(t.beta[c], 0.2) << c;
+    }
+  }
+}
+
+TEST(CastRays, ThePapersDataTermFollowsFromParityAlone) {
+  const Cube cube;
+  RaycastParams params;
+  params.evidence = "parity";
+  const DataTerms t = cast_rays(cube.complex, cube.weights, params);
+  EXPECT_NEAR(t.beta[cube.room], 1 / (1 + std::exp(-5.0)), 1e-6);
+  EXPECT_NEAR(t.d_solid[cube.room], 27 * t.beta[cube.room], 1e-5);
+  EXPECT_NEAR(t.d_empty[cube.room], 27 * (1 - t.beta[cube.room]), 1e-5);
+}
+
+/// Two rooms of 4 × 4 × 2.6 m with a wall of 10 cm between them.
+struct TwoRooms {
+  CellComplex complex = grid_complex({-2, 0, 4, 4.1, 8.1, 10}, {-2, 0, 4, 6}, {-0.5, 0, 2.6, 3.1});
+  std::size_t west = complex.cell(6, 1), wall = complex.cell(7, 1), east = complex.cell(8, 1);
+  std::vector<bool> empty = [this] {
+    std::vector<bool> e(complex.cells(), false);
+    e[west] = e[east] = true;
+    return e;
+  }();
+  FaceWeights weights = weights_of(complex, empty);
+};
+
+TEST(CastRays, AThinWallBetweenTwoRoomsIsSolid) {
+  const TwoRooms scene;
+  const DataTerms t = cast_rays(scene.complex, scene.weights, {});
+  EXPECT_LT(t.beta[scene.wall], 0.3);
+  EXPECT_LT(t.around[scene.wall], -0.9);
+  EXPECT_GT(t.beta[scene.west], 0.7);
+  EXPECT_GT(t.beta[scene.east], 0.7);
+  EXPECT_GT(t.d_empty[scene.wall] - t.d_solid[scene.wall], 1.0)
+      << "its two faces speak for 10.4 m² of wall each, more than its volume of 1 m³";
+}
+
+TEST(CastRays, AThinWallStaysSolidWhenFloorAndCeilingSpillOverIt) {
+  TwoRooms scene;
+  const std::size_t plan = 7;
+  scene.weights.level_omega[scene.complex.level_face(plan, 1)] = 0.6F;
+  scene.weights.level_floor[scene.complex.level_face(plan, 1)] = 0.6F;
+  scene.weights.level_omega[scene.complex.level_face(plan, 2)] = 0.6F;
+  scene.weights.level_ceiling[scene.complex.level_face(plan, 2)] = 0.6F;
+  const DataTerms t = cast_rays(scene.complex, scene.weights, {});
+  EXPECT_GT(t.d_empty[scene.wall], t.d_solid[scene.wall]);
+}
+
+TEST(CastRays, AMissingCeilingLeavesTheRoomEmpty) {
+  Cube cube;
+  cube.weights.level_omega[cube.complex.level_face(4, 2)] = 0;
+  cube.weights.level_ceiling[cube.complex.level_face(4, 2)] = 0;
+  const DataTerms t = cast_rays(cube.complex, cube.weights, {});
+  EXPECT_GT(t.beta[cube.room], 0.7);
+  EXPECT_LT(t.beta[cube.complex.cell(3, 1)], 0.3) << "beside the room";
+}
+
+TEST(CastRays, AWallThatIsHalfWindowLeavesTheRoomEmptyAndTheOutsideSolid) {
+  Cube cube;
+  const std::size_t face = cube.complex.wall_face(edge_near(cube.complex, {0, 1.5}), 1);
+  cube.weights.wall_omega[face] = 0.5F;
+  cube.weights.wall_left[face] *= 0.5F;
+  cube.weights.wall_right[face] *= 0.5F;
+  const DataTerms t = cast_rays(cube.complex, cube.weights, {});
+  EXPECT_GT(t.beta[cube.room], 0.8);
+  EXPECT_LT(t.beta[cube.complex.cell(3, 1)], 0.3) << "before the window";
+}
+
+TEST(CastRays, AWallOfWhichOneFaceWasNotSeenKeepsBothRooms) {
+  TwoRooms scene;
+  const std::size_t face = scene.complex.wall_face(edge_near(scene.complex, {4.1, 2}), 1);
+  scene.weights.wall_omega[face] = scene.weights.wall_left[face] = scene.weights.wall_right[face] = 0;
+  const DataTerms t = cast_rays(scene.complex, scene.weights, {});
+  EXPECT_GT(t.beta[scene.west], 0.7);
+  EXPECT_GT(t.beta[scene.east], 0.7);
+}
+
+TEST(CastRays, NothingIsKnownWhereNothingWasSeen) {
+  const Cube cube;
+  const DataTerms t = cast_rays(cube.complex, no_weights(cube.complex), {});
+  for (std::size_t c = 0; c < cube.complex.cells(); ++c) {
+    EXPECT_EQ(t.observed[c], 0);
+    EXPECT_LT(t.beta[c], 0.5);
+  }
+}
+
+TEST(CastRays, OneThreadAndFourGiveTheSameBytes) {
+  const TwoRooms scene;
+  const auto run = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return cast_rays(scene.complex, scene.weights, {});
+  };
+  const DataTerms one = run(1);
+  const DataTerms four = run(4);
+  EXPECT_EQ(one.kappa, four.kappa);
+  EXPECT_EQ(one.around, four.around);
+  EXPECT_EQ(one.winding, four.winding);
+  EXPECT_EQ(one.beta, four.beta);
+  EXPECT_EQ(one.d_empty, four.d_empty);
+  EXPECT_EQ(one.d_solid, four.d_solid);
+}
+
+}  // namespace
+}  // namespace roomcut
