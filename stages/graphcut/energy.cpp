@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/graphcut/energy.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "common/cells/interfaces.h"
+
+namespace roomcut {
+
+namespace {
+
+double quantised(double value) {
+  return std::nearbyint(value / EnergyTerms::kQuantum_m3) * EnergyTerms::kQuantum_m3;
+}
+
+bool is_empty(const std::vector<std::uint8_t>& label, std::int64_t cell) {
+  return cell >= 0 && label[static_cast<std::size_t>(cell)] == static_cast<std::uint8_t>(Label::kEmpty);
+}
+
+}  // namespace
+
+EnergyTerms energy_terms(const CellComplex& complex, const FaceWeights& weights, const DataTerms& terms,
+                         double mu_m) {
+  if (terms.d_empty.size() != complex.cells() || terms.d_solid.size() != complex.cells() ||
+      weights.wall_omega.size() != complex.edges.size() * complex.layers() ||
+      weights.level_omega.size() != complex.faces() * complex.levels.size()) {
+    throw std::logic_error("weights or data terms do not fit the complex");
+  }
+  EnergyTerms energy;
+  energy.d_empty.resize(complex.cells());
+  energy.d_solid.resize(complex.cells());
+  for (std::size_t c = 0; c < complex.cells(); ++c) {
+    energy.d_empty[c] = quantised(terms.d_empty[c]);
+    energy.d_solid[c] = quantised(terms.d_solid[c]);
+  }
+  energy.wall.resize(weights.wall_omega.size());
+  energy.level.resize(weights.level_omega.size());
+  for_each_interface(complex, [&](const Interface& face) {
+    const double omega = face.wall ? weights.wall_omega[face.index] : weights.level_omega[face.index];
+    (face.wall ? energy.wall : energy.level)[face.index] = quantised(mu_m * (1.0 - omega) * face.area);
+  });
+  return energy;
+}
+
+Energy energy_of(const CellComplex& complex, const EnergyTerms& terms,
+                 const std::vector<std::uint8_t>& label) {
+  Energy energy;
+  for (std::size_t c = 0; c < complex.cells(); ++c) {
+    energy.data_m3 += is_empty(label, static_cast<std::int64_t>(c)) ? terms.d_empty[c] : terms.d_solid[c];
+  }
+  for_each_interface(complex, [&](const Interface& face) {
+    if (is_surface(face, label)) {
+      energy.boundary_m3 += (face.wall ? terms.wall : terms.level)[face.index];
+    }
+  });
+  return energy;
+}
+
+double flip_cost(const CellComplex& complex, const EnergyTerms& terms, const std::vector<std::uint8_t>& label,
+                 std::size_t cell) {
+  const bool empty = is_empty(label, static_cast<std::int64_t>(cell));
+  double cost = empty ? terms.d_solid[cell] - terms.d_empty[cell] : terms.d_empty[cell] - terms.d_solid[cell];
+  for_each_interface_of(complex, cell, [&](const Interface& face, std::int64_t other) {
+    const double term = (face.wall ? terms.wall : terms.level)[face.index];
+    cost += is_empty(label, other) == empty ? term : -term;
+  });
+  return cost;
+}
+
+}  // namespace roomcut

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/graphcut/graphcut.h"
+
+#include <cstdio>
+#include <string>
+
+#include "common/cells/interfaces.h"
+#include "common/errors/codes.h"
+#include "stages/graphcut/energy.h"
+#include "stages/graphcut/label_repair.h"
+#include "stages/graphcut/manifold_check.h"
+#include "stages/graphcut/max_flow.h"
+
+namespace roomcut {
+
+namespace {
+
+std::string text(const char* format, double a, double b = 0, double c = 0) {
+  char buffer[256];
+  std::snprintf(buffer, sizeof buffer, format, a, b, c);
+  return buffer;
+}
+
+/// Says why nothing was worth cutting out: what spoke for empty space, and what the faces were worth.
+[[noreturn]] void give_up(const CellComplex& complex, const FaceWeights& weights, const DataTerms& terms,
+                          const GraphcutParams& params) {
+  double leaning = 0;
+  double gain = 0;
+  for (std::size_t c = 0; c < complex.cells(); ++c) {
+    const double cell_gain = terms.d_solid[c] - terms.d_empty[c];
+    if (cell_gain > 0) {
+      leaning += complex.area(c % complex.faces()) * complex.height(c / complex.faces());
+      gain += cell_gain;
+    }
+  }
+  double covered = 0;
+  double area = 0;
+  for_each_interface(complex, [&](const Interface& face) {
+    covered += face.area * (face.wall ? weights.wall_omega[face.index] : weights.level_omega[face.index]);
+    area += face.area;
+  });
+  throw StageError(
+      errors::kEmptyModel, "graphcut",
+      "every cell is solid: " +
+          text("%.3g m^3 lean towards empty and would gain %.3g m^3 of energy, no surface around them is "
+               "that cheap; ",
+               leaning, gain) +
+          text("%.3g of %.3g m^2 of all faces are covered by points", covered, area),
+      gain > 0 ? text("lower graphcut.mu_m (now %.3g)", params.mu_m) + "; see the pictures of the data term"
+               : "see the counts of weigh_faces and raycast: no cell has evidence of being a room");
+}
+
+void rate_cells(const CellComplex& complex, const EnergyTerms& energy, const DataTerms& terms,
+                const GraphcutParams& params, Graphcut& result) {
+  Labels& labels = result.labels;
+  labels.margin_m3.resize(complex.cells());
+  labels.unobserved.resize(complex.cells());
+  for (std::size_t c = 0; c < complex.cells(); ++c) {
+    labels.margin_m3[c] = static_cast<float>(flip_cost(complex, energy, labels.label, c));
+    labels.unobserved[c] = terms.observed[c] < params.min_observed ? 1 : 0;
+    if (labels.label[c] == static_cast<std::uint8_t>(Label::kEmpty)) {
+      const double volume = complex.area(c % complex.faces()) * complex.height(c / complex.faces());
+      ++result.empty_cells;
+      result.empty_m3 += volume;
+      result.unobserved_empty_m3 += labels.unobserved[c] != 0 ? volume : 0;
+    }
+  }
+}
+
+}  // namespace
+
+Graphcut graphcut(const CellComplex& complex, const FaceWeights& weights, const DataTerms& terms,
+                  const GraphcutParams& params) {
+  const EnergyTerms energy = energy_terms(complex, weights, terms, params.mu_m);
+  const Cut cut = minimum_cut(complex, energy);
+  const ManifoldCheck check(complex);
+  Repair repair = repair_labels(check, energy, cut.label);
+
+  Graphcut result;
+  result.cut_m3 = cut.flow_m3;
+  result.repair_m3 = repair.added_m3;
+  result.bad_places = static_cast<std::int64_t>(check.find_all(cut.label).size());
+  result.labels.label = std::move(repair.label);
+  result.labels.repair_flips = repair.flips;
+  const Energy parts = energy_of(complex, energy, result.labels.label);
+  result.labels.data_m3 = parts.data_m3;
+  result.labels.boundary_m3 = parts.boundary_m3;
+  result.labels.energy_m3 = parts.total_m3();
+  rate_cells(complex, energy, terms, params, result);
+  if (result.empty_cells == 0) {
+    give_up(complex, weights, terms, params);
+  }
+  return result;
+}
+
+}  // namespace roomcut

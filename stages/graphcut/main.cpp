@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/cells/cells_io.h"
+#include "common/cli/run_stage.h"
+#include "stages/graphcut/graphcut.h"
+
+namespace {
+
+using namespace roomcut;
+
+StageInfo info() {
+  StageInfo stage;
+  stage.name = "graphcut";
+  stage.revision = 1;
+  stage.summary = "Labels every cell empty or solid by one exact minimum cut";
+  stage.inputs = {{"cells", "50_partition/cells.h5", "The cell complex"},
+                  {"weights", "55_weigh_faces/weights.h5", "Coverage of its faces"},
+                  {"terms", "60_raycast/data_terms.h5", "Data term of its cells"}};
+  stage.outputs = {{"labels-out", "70_graphcut/labels.h5", "Label, margin and trust of every cell"}};
+  return stage;
+}
+
+ParameterTable graphcut_parameters(GraphcutParams& p) {
+  return {
+      number("mu_m", p.mu_m, "m", 0.01, 5.0,
+             "What a square metre of surface without points costs, in cubic metres of cells (the paper's "
+             "alpha times "
+             "the building's height)."),
+      number("min_observed", p.min_observed, "1", 0.0, 1.0,
+             "Cells of whose rays a smaller share ends on a seen face are reported as unobserved."),
+  };
+}
+
+void body(StageRun& run, const GraphcutParams& params) {
+  const CellsFile cells = read_cells(run.input("cells"));
+  const FaceWeights weights = read_weights(run.input("weights"), cells);
+  const DataTerms terms = read_data_terms(run.input("terms"), cells);
+  const Graphcut result = graphcut(cells.complex, weights, terms, params);
+  write_labels(run.output("labels-out"), result.labels, cells, run.provenance());
+
+  run.count("cells", static_cast<double>(cells.complex.cells()));
+  run.count("empty cells", static_cast<double>(result.empty_cells));
+  run.count("empty", result.empty_m3, "m^3");
+  run.count("of it unobserved", result.unobserved_empty_m3, "m^3");
+  run.count("energy", result.labels.energy_m3, "m^3");
+  run.count("data term", result.labels.data_m3, "m^3");
+  run.count("surface term", result.labels.boundary_m3, "m^3");
+  run.count("non-manifold places in the cut", static_cast<double>(result.bad_places));
+  run.count("labels changed by the repair", static_cast<double>(result.labels.repair_flips));
+  run.count("energy added by the repair", result.repair_m3, "m^3");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  GraphcutParams params;
+  return run_stage(argc, argv, info(), graphcut_parameters(params),
+                   [&](StageRun& run) { body(run, params); });
+}
