@@ -35,15 +35,18 @@ class CloudReader {
   std::unique_ptr<State> state_;
 };
 
-/// Writes a cloud.h5 in one sequence of tiles. The header's tile table, bbox, noise and density are set by
-/// finish().
+/// Writes a cloud.h5 in one sequence of tiles: nothing is held back in memory.
 class CloudWriter {
  public:
-  /// `points` and `tiles` are exact totals.
+  /// Of `header`, the frame, `points` (an exact total), the tiles' ix and iy, the edges and the stations must
+  /// be right. Offsets and bounding box follow from the tiles that are appended.
   CloudWriter(const std::filesystem::path& path, const Provenance& provenance, const CloudHeader& header);
   ~CloudWriter();
+  /// The next tile, in the order of the header.
   void append(const CloudTile& tile);
-  /// Publishes; returns whether the payload is new.
+  /// Noise and density may be set until finish().
+  CloudHeader& header();
+  /// Publishes; returns whether the payload is new. Throws std::logic_error when points or tiles are missing.
   bool finish();
 
  private:

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
+#include <stdexcept>
+
+#include "common/artefact/h5.h"
+#include "common/cloud/cloud_io.h"
+#include "common/cloud/cloud_layout.h"
+
+namespace roomcut {
+
+namespace layout = cloud_layout;
+
+struct CloudWriter::State {
+  State(const std::filesystem::path& path, const Provenance& provenance, const CloudHeader& from)
+      : file(path, artefacts::kCloud, provenance, from.frame), header(from) {}
+  H5Writer file;
+  CloudHeader header;
+  std::array<float, 3> low{}, high{};
+};
+
+namespace {
+
+void write_number(H5Writer& file, const char* path, double value, const char* unit, const char* description) {
+  file.write(path, std::vector<double>{value}, unit, description);
+}
+
+void write_corner(H5Writer& file, const char* path, const Vec3& corner, const char* description) {
+  file.write(path, std::vector<double>{corner.x(), corner.y(), corner.z()}, "m", description);
+}
+
+void widen(const std::vector<float>& values, float& low, float& high) {
+  for (const float value : values) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+}
+
+Vec3 as_point(const std::array<float, 3>& corner) {
+  return {corner[0], corner[1], corner[2]};
+}
+
+}  // namespace
+
+CloudWriter::CloudWriter(const std::filesystem::path& path, const Provenance& provenance,
+                         const CloudHeader& header)
+    : state_(std::make_unique<State>(path, provenance, header)) {
+  state_->header.tile_offset = {0};
+  state_->low.fill(std::numeric_limits<float>::max());
+  state_->high.fill(std::numeric_limits<float>::lowest());
+  const h5::Shape shape{header.points};
+  H5Writer& file = state_->file;
+  file.begin<float>(layout::kX, shape, "m", "coordinate, local frame");
+  file.begin<float>(layout::kY, shape, "m", "coordinate, local frame");
+  file.begin<float>(layout::kZ, shape, "m", "height, local frame");
+  file.begin<std::uint8_t>(layout::kSurface, shape, "1", "class: 0 none, 1 horizontal, 2 wall, 3 sloped");
+  file.begin<std::uint8_t>(
+      layout::kAzimuth, shape, "1",
+      "direction of a wall's normal: theta = (value + 1/2) * pi / 256; 0 for other classes");
+  file.begin<float>(layout::kArea, shape, "m^2", "surface area that the point stands for");
+}
+
+CloudWriter::~CloudWriter() = default;
+
+void CloudWriter::append(const CloudTile& tile) {
+  H5Writer& file = state_->file;
+  file.append(layout::kX, std::span<const float>(tile.x));
+  file.append(layout::kY, std::span<const float>(tile.y));
+  file.append(layout::kZ, std::span<const float>(tile.z));
+  file.append(layout::kSurface, std::span<const std::uint8_t>(tile.surface));
+  file.append(layout::kAzimuth, std::span<const std::uint8_t>(tile.azimuth));
+  file.append(layout::kArea, std::span<const float>(tile.area));
+  widen(tile.x, state_->low[0], state_->high[0]);
+  widen(tile.y, state_->low[1], state_->high[1]);
+  widen(tile.z, state_->low[2], state_->high[2]);
+  CloudHeader& header = state_->header;
+  header.tile_offset.push_back(header.tile_offset.back() + tile.size());
+}
+
+CloudHeader& CloudWriter::header() {
+  return state_->header;
+}
+
+bool CloudWriter::finish() {
+  CloudHeader& header = state_->header;
+  const std::size_t tiles = header.tile_ix.size();
+  if (header.tile_offset.size() != tiles + 1 || header.tile_iy.size() != tiles ||
+      header.tile_offset.back() != header.points) {
+    throw std::logic_error("a cloud's tiles or points are not those its header promises");
+  }
+  if (header.points > 0) {
+    header.bbox_min = as_point(state_->low);
+    header.bbox_max = as_point(state_->high);
+  }
+  H5Writer& file = state_->file;
+  file.write(layout::kTileIx, header.tile_ix, "1", "tile i covers [ix, ix + 1) edges in x");
+  file.write(layout::kTileIy, header.tile_iy, "1", "and [iy, iy + 1) edges in y; sorted by (iy, ix)");
+  file.write(layout::kTileOffset, header.tile_offset, "1", "first point of each tile, and the total");
+  write_number(file, layout::kTileEdge, header.tile_edge_m, "m", "edge of a tile");
+  write_number(file, layout::kVoxelEdge, header.voxel_edge_m, "m", "edge of the finest voxel");
+  write_corner(file, layout::kBoxMin, header.bbox_min, "lower corner of the points' box, local frame");
+  write_corner(file, layout::kBoxMax, header.bbox_max, "upper corner of the points' box, local frame");
+  write_number(file, layout::kNoise, header.noise_m, "m",
+               "standard deviation of points off their plane, median");
+  write_number(file, layout::kDensity, header.density, "1/m^2", "points per area of surface, median");
+  std::vector<double> stations;
+  for (const Vec3& station : header.stations) {
+    stations.insert(stations.end(), {station.x(), station.y(), station.z()});
+  }
+  file.write(layout::kStations, std::span<const double>(stations), {header.stations.size(), 3}, "m",
+             "scanner positions, local frame");
+  return file.commit();
+}
+
+}  // namespace roomcut

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/cloud/cloud.h"
+#include "stages/ingest/estimates.h"
+#include "stages/ingest/params.h"
+#include "stages/ingest/scan_reader.h"
+#include "stages/ingest/tile_store.h"
+
+namespace roomcut {
+
+/// Where the points went.
+struct IngestCounts {
+  std::uint64_t read = 0;
+  std::uint64_t not_finite = 0;  ///< dropped: NaN or infinite
+  std::uint64_t ghosts = 0;      ///< dropped: far from the building, in sparse cells
+  std::uint64_t kept = 0;
+};
+
+/// What the user says about a scan.
+struct ScanSettings {
+  std::string unit = "m";
+  std::string up = "z";
+  std::uint64_t memory_bytes = std::uint64_t{512} << 20;  ///< points held in memory between the passes
+  std::filesystem::path scratch_folder;                   ///< for points beyond the memory budget
+  std::string name;                                       ///< of the scan, for messages
+};
+
+using Advance = std::function<void(std::uint64_t)>;
+
+/// The scan after the first pass: its points sorted by tile.
+struct TiledScan {
+  ScanFrame frame;
+  std::unique_ptr<TileStore> store;
+  std::vector<KeptTile> tiles;  ///< by (iy, ix)
+  IngestCounts counts;
+  double step_m = 0;  ///< quantisation of the coordinates
+};
+
+/// First pass: reads every block once, in parallel, and sorts its points into tiles. `advance(1)` is called
+/// per block. Errors: those of the reader (of the first faulty block), kScanNoPoints, kScanTooFewPoints,
+/// kScanExtent, kCannotWrite. The result does not depend on the number of threads.
+TiledScan tile_scan(const ScanReader& reader, const ScanSettings& settings, const IngestParams& params,
+                    const Advance& advance = {});
+
+/// The cloud's header as far as the first pass knows it; noise, density and box are left at 0.
+CloudHeader header_of(const TiledScan& scan, const std::vector<Vec3>& stations, const IngestParams& params);
+
+/// What the second pass finds out on its way.
+struct SurfaceSummary {
+  SurfaceEstimates estimates;
+  std::uint64_t tiles_with_refused_normals = 0;
+};
+
+/// Second pass: classes the points tile by tile, in parallel, and gives the tiles to `take` one after another
+/// in order. `advance(points)` is called per tile. Memory: a few tiles.
+SurfaceSummary class_tiles(const TiledScan& scan, const IngestParams& params,
+                           const std::function<void(const CloudTile&)>& take, const Advance& advance = {});
+
+/// Noise from the voxels, but not below what rounded coordinates or 0.1 mm allow; 5 mm when no voxel was a
+/// clear plane.
+double noise_of(const SurfaceEstimates& estimates, double step_m);
+/// Points per square metre; 0 without points.
+double density_of(const SurfaceEstimates& estimates);
+
+}  // namespace roomcut

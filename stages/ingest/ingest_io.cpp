@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/ingest/ingest_io.h"
+
+#include <charconv>
+#include <future>
+
+#include "common/artefact/sha256.h"
+#include "common/cloud/cloud_io.h"
+#include "common/errors/codes.h"
+#include "stages/ingest/ingest.h"
+#include "stages/ingest/scan_stations.h"
+
+namespace roomcut {
+
+namespace {
+
+/// The scan's digest: given, or computed beside the first pass.
+std::future<std::string> start_digest(const StageRun& run) {
+  const std::string& given = run.option("scan-sha256");
+  if (!given.empty()) {
+    if (given.size() != 64 || given.find_first_not_of("0123456789abcdef") != std::string::npos) {
+      throw StageError(errors::kUsage, "--scan-sha256", "is no SHA-256 digest",
+                       "give 64 hexadecimal digits, or nothing");
+    }
+    return std::async(std::launch::deferred, [given] { return given; });
+  }
+  return std::async(std::launch::async, [path = run.input("scan")] { return sha256_of_file(path); });
+}
+
+std::uint64_t memory_bytes(const StageRun& run) {
+  const std::string& text = run.option("memory-mib");
+  std::uint64_t mib = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), mib);
+  if (error != std::errc() || end != text.data() + text.size() || mib > (std::uint64_t{1} << 30)) {
+    throw StageError(errors::kUsage, "--memory-mib", "'" + text + "' is no number of MiB",
+                     "give a whole number");
+  }
+  return mib << 20;
+}
+
+void report(StageRun& run, const TiledScan& scan, const SurfaceSummary& summary, const CloudHeader& header) {
+  const IngestCounts& counts = scan.counts;
+  run.count("points read", static_cast<double>(counts.read));
+  run.count("kept", static_cast<double>(counts.kept));
+  run.count("not finite", static_cast<double>(counts.not_finite));
+  run.count("ghosts", static_cast<double>(counts.ghosts));
+  run.count("noise", 1000 * header.noise_m, "mm");
+  run.count("density", header.density, "per m^2");
+  run.count("stations", static_cast<double>(header.stations.size()));
+  if (counts.not_finite > 0) {
+    run.warn(std::to_string(counts.not_finite) + " points with NaN or infinite coordinates were dropped");
+  }
+  if (counts.ghosts > 0) {
+    run.warn(std::to_string(counts.ghosts) + " ghosts, sparse points far from the building, were dropped");
+  }
+  if (summary.tiles_with_refused_normals > 0) {
+    run.warn("the file's normals contradict its points in " +
+             std::to_string(summary.tiles_with_refused_normals) + " of " + std::to_string(scan.tiles.size()) +
+             " tiles and were not used there");
+  }
+  if (scan.step_m > 0.005) {
+    run.warn("the coordinates are rounded to " + std::to_string(1000 * scan.step_m) + " mm in the file");
+  }
+  if (summary.estimates.noise.total() == 0) {
+    run.warn("no neighbourhood of points lies clearly on a plane: is the unit right, the scan dense enough?");
+  }
+}
+
+}  // namespace
+
+StageInfo ingest_info() {
+  StageInfo info;
+  info.name = "ingest";
+  info.revision = 1;
+  info.summary = "Reads a raw scan; finds surface class, azimuth, noise and density from sums in voxels.";
+  info.inputs = {
+      {"scan", "", "The scan: PLY (ascii, binary) or text (.xyz .txt .csv .pts .asc)"},
+      {"stations", "", "Scanner positions as text, x y z on each line, in the scan's unit and axes", true}};
+  info.inputs[0].by_bytes = true;
+  info.inputs[1].by_bytes = true;
+  info.outputs = {{"cloud", "10_ingest/cloud.h5", "The points in tiles, with class, azimuth and area"}};
+  info.options = {
+      {"up", "z", "The scan's up axis", {"x", "y", "z", "-x", "-y", "-z"}},
+      {"unit", "m", "The scan's length unit", {"m", "mm", "cm", "ft"}},
+      {"memory-mib", "512", "Points held in memory between the passes; more go to a scratch file", {}},
+      {"scan-sha256", "", "Digest of the scan's bytes, when it is known already", {}}};
+  return info;
+}
+
+ParameterTable ingest_parameters(IngestParams& params) {
+  return {
+      number("voxel_edge_m", params.voxel_edge_m, "m", 0.01, 0.2,
+             "Finest voxel of the moments; where points are sparse, edges of 2, 4 and 8 times it are used"),
+      number("wall_max_nz", params.wall_max_nz, "1", 0.05, 0.6,
+             "A plane is a wall when |nz| of its normal is below"),
+      number("level_min_nz", params.level_min_nz, "1", 0.7, 0.999,
+             "A plane is a floor or ceiling when |nz| of its normal is above"),
+      number("planar_ratio", params.planar_ratio, "1", 0.05, 0.9,
+             "Points lie on a plane when their smallest variance is below this share of the middle one")};
+}
+
+void run_ingest(StageRun& run, const IngestParams& params) {
+  const std::unique_ptr<ScanReader> reader = open_scan(run.input("scan"));
+  std::vector<Vec3> stations = reader->stations();
+  if (!run.input("stations").empty()) {
+    stations = read_stations(run.input("stations"));
+  }
+  std::future<std::string> digest = start_digest(run);
+  const std::filesystem::path output = run.output("cloud");
+  const std::filesystem::path folder =
+      output.has_parent_path() ? output.parent_path() : std::filesystem::path(".");
+  const ScanSettings settings{run.option("unit"), run.option("up"), memory_bytes(run), folder,
+                              run.input("scan").string()};
+  Progress reading = run.progress("reading blocks", reader->blocks());
+  const TiledScan scan =
+      tile_scan(*reader, settings, params, [&](std::uint64_t blocks) { reading.advance(blocks); });
+  run.set_input_digest("scan", digest.get());
+
+  CloudWriter writer(output, run.provenance(), header_of(scan, stations, params));
+  Progress classing = run.progress("classing points", scan.counts.kept);
+  const SurfaceSummary summary = class_tiles(
+      scan, params, [&](const CloudTile& tile) { writer.append(tile); },
+      [&](std::uint64_t points) { classing.advance(points); });
+  writer.header().noise_m = noise_of(summary.estimates, scan.step_m);
+  writer.header().density = density_of(summary.estimates);
+  writer.finish();
+  report(run, scan, summary, writer.header());
+}
+
+}  // namespace roomcut

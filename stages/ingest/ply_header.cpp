@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/ingest/ply_header.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <numeric>
+#include <sstream>
+#include <string_view>
+
+#include "common/errors/codes.h"
+
+namespace roomcut {
+
+namespace {
+
+constexpr std::size_t kLargestHeader = 1 << 20;
+
+struct TypeName {
+  std::string_view name;
+  PlyType type;
+};
+
+constexpr std::array<TypeName, 16> kTypes{{{"char", PlyType::kInt8},
+                                           {"int8", PlyType::kInt8},
+                                           {"uchar", PlyType::kUint8},
+                                           {"uint8", PlyType::kUint8},
+                                           {"short", PlyType::kInt16},
+                                           {"int16", PlyType::kInt16},
+                                           {"ushort", PlyType::kUint16},
+                                           {"uint16", PlyType::kUint16},
+                                           {"int", PlyType::kInt32},
+                                           {"int32", PlyType::kInt32},
+                                           {"uint", PlyType::kUint32},
+                                           {"uint32", PlyType::kUint32},
+                                           {"float", PlyType::kFloat32},
+                                           {"float32", PlyType::kFloat32},
+                                           {"double", PlyType::kFloat64},
+                                           {"float64", PlyType::kFloat64}}};
+
+/// Takes the header apart line by line; every error names the line.
+class HeaderParser {
+ public:
+  explicit HeaderParser(const ScanFile& file) : file_(file) {}
+
+  /// Returns true at end_header.
+  bool take(const std::string& text) {
+    ++header_.lines;
+    std::istringstream words(text);
+    std::string keyword;
+    words >> keyword;
+    if (keyword == "format") {
+      take_format(words);
+    } else if (keyword == "comment") {
+      header_.comments.push_back(text.substr(std::min(text.size(), text.find("comment") + 8)));
+    } else if (keyword == "element") {
+      take_element(words);
+    } else if (keyword == "property") {
+      take_property(words);
+    } else if (keyword == "end_header") {
+      return true;
+    } else if (!keyword.empty() && keyword != "ply" && keyword != "obj_info") {
+      wrong("unknown keyword '" + keyword + "'");
+    }
+    return false;
+  }
+
+  PlyHeader finish() {
+    if (!has_format_) {
+      wrong("there is no format line");
+    }
+    const auto vertex = std::find_if(header_.elements.begin(), header_.elements.end(),
+                                     [](const PlyElement& element) { return element.name == "vertex"; });
+    if (vertex == header_.elements.end()) {
+      wrong("there is no element 'vertex'");
+    }
+    header_.vertex = static_cast<std::size_t>(vertex - header_.elements.begin());
+    return std::move(header_);
+  }
+
+ private:
+  [[noreturn]] void wrong(const std::string& what) const {
+    throw StageError(errors::kScanFormat, file_.name() + ": header line " + std::to_string(header_.lines),
+                     what, "export the scan again as PLY, ascii or binary");
+  }
+
+  PlyType type_of(const std::string& name) const {
+    const auto* const found =
+        std::find_if(kTypes.begin(), kTypes.end(), [&](const TypeName& type) { return type.name == name; });
+    if (found == kTypes.end()) {
+      wrong("unknown type '" + name + "'");
+    }
+    return found->type;
+  }
+
+  void take_format(std::istringstream& words) {
+    std::string name;
+    words >> name;
+    if (name == "ascii") {
+      header_.format = PlyFormat::kAscii;
+    } else if (name == "binary_little_endian") {
+      header_.format = PlyFormat::kLittleEndian;
+    } else if (name == "binary_big_endian") {
+      header_.format = PlyFormat::kBigEndian;
+    } else {
+      wrong("unknown format '" + name + "'");
+    }
+    has_format_ = true;
+  }
+
+  void take_element(std::istringstream& words) {
+    PlyElement element;
+    std::string count;
+    words >> element.name >> count;
+    const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), element.count);
+    if (count.empty() || error != std::errc() || end != count.data() + count.size()) {
+      wrong("'" + count + "' is no count of elements");
+    }
+    header_.elements.push_back(element);
+  }
+
+  void take_property(std::istringstream& words) {
+    if (header_.elements.empty()) {
+      wrong("a property before the first element");
+    }
+    PlyProperty property;
+    std::string type;
+    words >> type;
+    if (type == "list") {
+      property.is_list = true;
+      std::string count_type;
+      words >> count_type >> type;
+      property.count_type = type_of(count_type);
+      if (property.count_type == PlyType::kFloat32 || property.count_type == PlyType::kFloat64) {
+        wrong("the length of a list must be an integer");
+      }
+    }
+    property.type = type_of(type);
+    if (!(words >> property.name)) {
+      wrong("a property without a name");
+    }
+    header_.elements.back().properties.push_back(property);
+  }
+
+  const ScanFile& file_;
+  PlyHeader header_;
+  bool has_format_ = false;
+};
+
+}  // namespace
+
+std::size_t bytes_of(PlyType type) {
+  constexpr std::array<std::size_t, 8> kBytes{1, 1, 2, 2, 4, 4, 4, 8};
+  return kBytes[static_cast<std::size_t>(type)];
+}
+
+bool PlyElement::has_list() const {
+  return std::any_of(properties.begin(), properties.end(), [](const PlyProperty& p) { return p.is_list; });
+}
+
+std::uint64_t PlyElement::smallest_record() const {
+  return std::accumulate(properties.begin(), properties.end(), std::uint64_t{0},
+                         [](std::uint64_t sum, const PlyProperty& property) {
+                           return sum + bytes_of(property.is_list ? property.count_type : property.type);
+                         });
+}
+
+PlyHeader read_ply_header(const ScanFile& file) {
+  std::string text(static_cast<std::size_t>(std::min<std::uint64_t>(file.size(), kLargestHeader)), '\0');
+  text.resize(file.read(0, text.data(), text.size()));
+  HeaderParser parser(file);
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    const std::size_t end = std::min(text.find_first_of("\r\n", begin), text.size());
+    if (end == text.size() && text.compare(begin, std::string::npos, "end_header") != 0) {
+      break;  // a line cut in its middle says nothing
+    }
+    const bool windows = text.compare(end, 2, "\r\n") == 0;
+    const bool done = parser.take(text.substr(begin, end - begin));
+    begin = std::min(text.size(), end + (windows ? 2 : 1));
+    if (done) {
+      PlyHeader header = parser.finish();
+      header.data_offset = begin;
+      return header;
+    }
+  }
+  if (text.size() == kLargestHeader) {
+    throw StageError(errors::kScanFormat, file.name(), "no end_header within the first MiB",
+                     "export the scan again as PLY, ascii or binary");
+  }
+  throw StageError(errors::kScanTruncated, file.name(), "the header ends before end_header",
+                   "export or copy the scan again");
+}
+
+}  // namespace roomcut

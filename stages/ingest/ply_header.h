@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "stages/ingest/scan_file.h"
+
+namespace roomcut {
+
+enum class PlyFormat { kAscii, kLittleEndian, kBigEndian };
+enum class PlyType : std::uint8_t { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
+
+std::size_t bytes_of(PlyType type);
+
+struct PlyProperty {
+  std::string name;
+  PlyType type = PlyType::kFloat32;
+  bool is_list = false;
+  PlyType count_type = PlyType::kUint8;  ///< lists only
+};
+
+struct PlyElement {
+  std::string name;
+  std::uint64_t count = 0;  ///< as promised
+  std::vector<PlyProperty> properties;
+  bool has_list() const;
+  /// Bytes of one binary record with every list empty: exact without lists, a lower bound with them.
+  std::uint64_t smallest_record() const;
+};
+
+struct PlyHeader {
+  PlyFormat format = PlyFormat::kAscii;
+  std::vector<PlyElement> elements;
+  std::vector<std::string> comments;
+  std::uint64_t data_offset = 0;  ///< first byte after the header
+  std::size_t lines = 0;          ///< header lines, for line numbers of an ascii body
+  std::size_t vertex = 0;         ///< index of the vertex element
+};
+
+/// Reads the header. Errors: kScanFormat (with the header line), kScanTruncated (no end_header).
+PlyHeader read_ply_header(const ScanFile& file);
+
+}  // namespace roomcut

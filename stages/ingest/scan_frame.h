@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "common/artefact/provenance.h"
+#include "stages/ingest/fixed_grid.h"
+#include "stages/ingest/scan_reader.h"
+
+namespace roomcut {
+
+/// How a scan's coordinates become local ones: unit, up axis, origin; and the part of space that is looked
+/// at.
+struct ScanFrame {
+  Frame frame;
+  double metres = 1;                 ///< metres per unit of the file
+  std::array<int, 3> axis{0, 1, 2};  ///< which axis of the file becomes x, y, z
+  std::array<double, 3> sign{1, 1, 1};
+  std::array<std::int32_t, 3> window{
+      0, 0, 0};  ///< lower corner of the window in tile edges; points outside are ghosts
+
+  /// Metres, z up, before the origin is subtracted.
+  Vec3 turned(const Vec3& file) const;
+  /// Local coordinates.
+  Vec3 local(const Vec3& file) const {
+    return turned(file) - Vec3(frame.origin[0], frame.origin[1], frame.origin[2]);
+  }
+};
+
+/// Local points; normals turned the same way. Points that are not finite, or beyond the window, are not in
+/// it.
+struct LocalPoints {
+  std::vector<float> x, y, z;
+  std::vector<float> nx, ny, nz;  ///< empty when there are none
+  std::uint64_t not_finite = 0;
+  std::uint64_t far = 0;  ///< outside the window
+};
+
+/// Unit m, mm, cm or ft; up axis x, y, z, -x, -y, -z: the axes are turned, never mirrored; y up becomes (x,
+/// -z, y). The origin is 0 along an axis where the scan lies within 1 km of it, where float32 keeps 0.1 mm;
+/// else the median of the sample rounded to 100 m. The window is centred on the median: the median of finite
+/// points in `sample` is robust against ghosts.  Errors: std::invalid_argument for other words; returns
+/// nothing special when no point is finite.
+ScanFrame choose_frame(const ScanBlock& sample, const std::string& unit, const std::string& up,
+                       double voxel_edge_m);
+
+/// Converts a block. Keeps the order. `local` is overwritten, its capacity used again.
+void to_local(const ScanBlock& block, const ScanFrame& frame, const UnitScale& scale, LocalPoints& local);
+
+}  // namespace roomcut

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "common/geometry/line2.h"
+#include "stages/ingest/scan_file.h"
+
+namespace roomcut {
+
+/// Points as they stand in the file: its unit, axes and order; not checked for being finite.
+struct ScanBlock {
+  std::vector<double> x, y, z;
+  std::vector<float> nx, ny, nz;  ///< normals; empty when the file has none
+  std::size_t size() const { return x.size(); }
+  void resize(std::size_t points, bool normals);
+};
+
+/// A scan cut into blocks that can be read in any order and by several threads. Block order is file order.
+class ScanReader {
+ public:
+  virtual ~ScanReader() = default;
+  virtual std::size_t blocks() const = 0;
+  /// Reads block `index`. Thread-safe. Errors: kScanUnreadable, kScanTruncated, kScanBadLine.
+  virtual void read(std::size_t index, ScanBlock& block) const = 0;
+  virtual bool has_normals() const = 0;
+  /// Scanner positions that the file states, in its own unit and axes.
+  virtual const std::vector<Vec3>& stations() const = 0;
+  /// Distance between neighbouring representable coordinates at `magnitude`: 0 for text and doubles, the
+  /// spacing of float32 numbers there otherwise [file units].
+  virtual double resolution(double magnitude) const = 0;
+  /// Called with the number of points that all blocks gave: kScanTruncated when the file promised more.
+  virtual void check_total(std::uint64_t /*points*/) const {}
+};
+
+/// Finds out the format by the content, then by the name's ending. Errors: those of ScanFile, kScanFormat,
+/// kScanTruncated (more points promised than bytes are there; nothing is allocated on a promise),
+/// kScanNoPoints.
+std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& path);
+
+}  // namespace roomcut

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/ingest/surface.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "stages/ingest/normal_hint.h"
+#include "stages/ingest/plane.h"
+
+namespace roomcut {
+
+namespace {
+
+constexpr std::uint32_t kFewest = 6;  // points for a plane and an idea of its scatter
+constexpr std::uint32_t kParentHas =
+    48;  // a level is fine enough when its parent's neighbourhood holds so many:
+         // four times the 12 that a neighbourhood should hold. Asking the parent,
+         // not the count itself, keeps the areas free of a selection bias
+constexpr std::uint32_t kWellFilled = 20;  // points for a noise estimate
+constexpr double kClearPlane = 0.15;       // lambda0 / lambda1 for a noise estimate
+constexpr double kLineShare = 0.01;  // lambda1 below this share of the neighbourhood's edge squared: a line
+
+/// Area of the whole plane inside the neighbourhood's cube [m^2].
+double whole_area(const Plane& plane, SurfaceClass surface, const Spread& spread, double units_per_edge,
+                  double edge_m) {
+  const std::array<double, 3>& n = plane.normal;
+  if (surface == SurfaceClass::kWall) {
+    const double horizontal = std::hypot(n[0], n[1]);
+    const double d = (n[0] * spread.mean[0] + n[1] * spread.mean[1]) / (horizontal * units_per_edge);
+    return 3 * chord_of_square(n[0] / horizontal, n[1] / horizontal, d) * edge_m * edge_m / horizontal;
+  }
+  const double steepest = std::max({std::abs(n[0]), std::abs(n[1]), std::abs(n[2])});
+  return 9 * edge_m * edge_m / steepest;
+}
+
+int viewing_axis(const std::array<double, 3>& n) {
+  const double x = std::abs(n[0]);
+  const double y = std::abs(n[1]);
+  const double z = std::abs(n[2]);
+  return z >= std::max(x, y) ? 2 : (y >= x ? 1 : 0);
+}
+
+void accumulate(const VoxelLevel& level, std::uint16_t z, Neighbourhood& around, NeighbourSum& sum) {
+  around.visit(z, [&](std::uint32_t voxel, int bit) {
+    sum.moments.add(level.moments[voxel]);
+    sum.points += level.count[voxel];
+    sum.mask |= VoxelMask{1} << bit;
+  });
+}
+
+}  // namespace
+
+VoxelSurface surface_of(const NeighbourSum& sum, const std::array<std::uint64_t, 3>& centre,
+                        double voxel_edge_m, double unit_m, const IngestParams& params) {
+  VoxelSurface result;
+  const double n = sum.points;
+  result.area = static_cast<float>(std::popcount(sum.mask) * voxel_edge_m * voxel_edge_m / n);
+  if (sum.points < kFewest) {
+    return result;
+  }
+  const double edge = voxel_edge_m / unit_m;
+  const Spread spread = spread_of(sum.moments, sum.points, centre);
+  const Plane plane = plane_of(spread);
+  result.resolved = plane.lambda1 > kLineShare * 9 * edge * edge;
+  if (!result.resolved || plane.lambda0 >= params.planar_ratio * plane.lambda1) {
+    return result;
+  }
+  result.surface = class_of_slope(std::abs(plane.normal[2]), params);
+  if (result.surface == SurfaceClass::kWall) {
+    result.azimuth = azimuth_step(plane.normal[0], plane.normal[1]);
+  }
+  const int filled = std::popcount(projected(sum.mask, viewing_axis(plane.normal)));
+  const Covered covered = covered_cells(sum.points, filled);
+  result.whole = covered.whole;
+  result.area = static_cast<float>(whole_area(plane, result.surface, spread, edge, voxel_edge_m) *
+                                   covered.cells / (9 * n));
+  if (sum.points >= kWellFilled && plane.lambda0 < kClearPlane * plane.lambda1) {
+    const double sigma = std::sqrt(plane.lambda0 * n / (n - 3)) * unit_m;  // three parameters were fitted
+    result.noise = static_cast<float>(std::max(sigma, 1e-6));              // exact planes count as well
+  }
+  return result;
+}
+
+const VoxelSurface& SurfaceFinder::at_coarse(const TileGrid& grid, const UnitScale& scale, int level,
+                                             std::uint32_t voxel, int ix, int iy) {
+  Cached& cached = cache_[static_cast<std::size_t>(level)][voxel];
+  if (!cached.known) {
+    const VoxelLevel& voxels = grid.level(level);
+    NeighbourSum sum;
+    Neighbourhood around(voxels, ix, iy);
+    accumulate(voxels, voxels.z[voxel], around, sum);
+    cached.surface = surface_of(sum, grid.centre(level, ix, iy, voxels.z[voxel]),
+                                scale.voxel_edge_m() * (1 << level), scale.unit_m(), params_);
+    cached.known = true;
+  }
+  return cached.surface;
+}
+
+VoxelSurface SurfaceFinder::choose(const TileGrid& grid, const UnitScale& scale, std::uint32_t voxel, int ix,
+                                   int iy, Neighbourhood& around) {
+  constexpr int kLast = fixed_grid::kLevels - 1;
+  std::array<std::uint32_t, fixed_grid::kLevels> ancestor{voxel};
+  for (int i = 0; i < kLast; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    ancestor[k + 1] = grid.level(i).parent[ancestor[k]];
+  }
+  const auto surface_at = [&](int level) {
+    if (level > 0) {
+      return at_coarse(grid, scale, level, ancestor[static_cast<std::size_t>(level)], ix >> level,
+                       iy >> level);
+    }
+    NeighbourSum sum;
+    accumulate(grid.level(0), grid.level(0).z[voxel], around, sum);
+    return surface_of(sum, grid.centre(0, ix, iy, grid.level(0).z[voxel]), scale.voxel_edge_m(),
+                      scale.unit_m(), params_);
+  };
+  int level = 0;
+  while (level < kLast) {
+    const auto above = static_cast<std::size_t>(level) + 1;
+    if (counts_[above][ancestor[above]] >= kParentHas) {
+      break;
+    }
+    ++level;
+  }
+  VoxelSurface chosen = surface_at(level);
+  while (!chosen.resolved && level < kLast) {
+    chosen = surface_at(++level);
+  }
+  if (chosen.surface != SurfaceClass::kNone && !chosen.whole) {
+    for (int coarser = level + 1; coarser <= kLast; ++coarser) {
+      const VoxelSurface surface = surface_at(coarser);
+      if (surface.surface == chosen.surface &&
+          surface.whole) {  // the holes are gaps between scan lines, no border
+        chosen.area = surface.area;
+        break;
+      }
+    }
+  }
+  return chosen;
+}
+
+const std::vector<VoxelSurface>& SurfaceFinder::find(const TileGrid& grid, const UnitScale& scale,
+                                                     SurfaceEstimates& estimates) {
+  for (int i = 1; i < fixed_grid::kLevels; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    neighbour_counts(grid.level(i), counts_[k]);
+    cache_[k].assign(grid.level(i).size(), {});
+  }
+  const VoxelLevel& finest = grid.level(0);
+  result_.assign(finest.size(), {});
+  for (int iy = finest.halo(); iy < finest.columns - finest.halo(); ++iy) {
+    for (int ix = finest.halo(); ix < finest.columns - finest.halo(); ++ix) {
+      const std::size_t column = finest.column(ix, iy);
+      if (finest.begin[column] == finest.begin[column + 1]) {
+        continue;
+      }
+      Neighbourhood around(finest, ix, iy);
+      for (std::uint32_t voxel = finest.begin[column]; voxel < finest.begin[column + 1]; ++voxel) {
+        result_[voxel] = choose(grid, scale, voxel, ix, iy, around);
+        estimates.area.add(result_[voxel].area, finest.count[voxel]);
+        if (result_[voxel].noise > 0) {
+          estimates.noise.add(result_[voxel].noise);
+        }
+      }
+    }
+  }
+  return result_;
+}
+
+}  // namespace roomcut

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/ingest/tile_grid.h"
+
+#include <algorithm>
+
+namespace roomcut {
+
+using namespace fixed_grid;
+
+namespace {
+
+constexpr std::uint16_t kDropped = 0xffff;
+constexpr int kColumns = kTileVoxels + 2 * kHaloVoxels;
+constexpr std::size_t kHeights = std::size_t{kWindowLayers} * kTileVoxels;
+constexpr std::uint64_t kAllLayers = ~std::uint64_t{0};
+
+/// -1, 0, 1: below, inside or above the tile, for units from the halo's corner.
+int side(std::int32_t units) {
+  return (units >= kHaloUnits + kTileUnits ? 1 : 0) - (units < kHaloUnits ? 1 : 0);
+}
+
+/// Turns counts into begins, as a counting sort needs them.
+void to_begins(std::vector<std::uint32_t>& counts) {
+  std::uint32_t sum = 0;
+  for (std::uint32_t& count : counts) {
+    const std::uint32_t here = count;
+    count = sum;
+    sum += here;
+  }
+}
+
+}  // namespace
+
+void TileGrid::find_keys(const TilePoints& points, const TilePlace& place, const UnitScale& scale) {
+  std::int32_t lowest = INT32_MAX;
+  for (const float z : points.z) {
+    lowest = std::min(lowest, scale.units(z));
+  }
+  corner_ = {place.ix * kTileUnits - kHaloUnits, place.iy * kTileUnits - kHaloUnits,
+             lowest & ~((1 << (kVoxelBits + kLevels - 1)) - 1)};
+  const bool all =
+      std::all_of(place.layers.begin(), place.layers.end(), [](auto l) { return l == kAllLayers; });
+  column_.resize(points.size());
+  height_.resize(points.size());
+  heights_begin_.assign(kHeights + 1, 0);
+  columns_begin_.assign(std::size_t{kColumns} * kColumns + 1, 0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::int32_t rx = scale.units(points.x[i]) - corner_[0];
+    const std::int32_t ry = scale.units(points.y[i]) - corner_[1];
+    const std::int32_t uz = scale.units(points.z[i]);
+    column_[i] = static_cast<std::uint16_t>((ry >> kVoxelBits) * kColumns + (rx >> kVoxelBits));
+    height_[i] = static_cast<std::uint16_t>((uz - corner_[2]) >> kVoxelBits);
+    if (!all) {
+      const int layer = (uz >> kTileBits) - place.window_z;
+      const auto beside = static_cast<std::size_t>(3 * (side(ry) + 1) + side(rx) + 1);
+      if ((place.layers[beside] >> layer & 1) == 0) {
+        column_[i] = kDropped;
+        continue;
+      }
+    }
+    ++columns_begin_[column_[i]];
+    ++heights_begin_[height_[i]];
+  }
+  to_begins(columns_begin_);
+  to_begins(heights_begin_);
+}
+
+/// Two counting sorts, by height and then stably by column.
+void TileGrid::sort_points(const TilePoints& points) {
+  const std::size_t kept = columns_begin_.back();
+  by_height_.resize(kept);
+  sorted_.resize(kept);
+  const bool hints = !points.hint.empty();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (column_[i] != kDropped) {
+      by_height_[heights_begin_[height_[i]]++] = {points.x[i], points.y[i], points.z[i],
+                                                  hints ? points.hint[i] : std::uint16_t{0}, column_[i]};
+    }
+  }
+  for (const Point& point : by_height_) {
+    sorted_[columns_begin_[point.column]++] = point;
+  }
+}
+
+void TileGrid::sum_moments(const UnitScale& scale) {
+  VoxelLevel& level = levels_[0];
+  level.clear(0);
+  first_point_.clear();
+  std::uint32_t next_column = 0;
+  std::uint32_t voxel_key = ~0U;
+  for (std::size_t i = 0; i < sorted_.size(); ++i) {
+    const Point& point = sorted_[i];
+    const auto rx = static_cast<std::uint32_t>(scale.units(point.x) - corner_[0]);
+    const auto ry = static_cast<std::uint32_t>(scale.units(point.y) - corner_[1]);
+    const auto rz = static_cast<std::uint32_t>(scale.units(point.z) - corner_[2]);
+    const std::uint32_t key = std::uint32_t{point.column} << 16 | rz >> kVoxelBits;
+    if (key != voxel_key) {
+      for (; next_column <= point.column; ++next_column) {
+        level.begin.push_back(static_cast<std::uint32_t>(level.size()));
+      }
+      voxel_key = key;
+      level.z.push_back(static_cast<std::uint16_t>(rz >> kVoxelBits));
+      level.count.push_back(0);
+      level.moments.emplace_back();
+      first_point_.push_back(static_cast<std::uint32_t>(i));
+    }
+    ++level.count.back();
+    level.moments.back().add_point(rx, ry, rz);
+  }
+  level.begin.resize(std::size_t{kColumns} * kColumns + 1, static_cast<std::uint32_t>(level.size()));
+  first_point_.push_back(static_cast<std::uint32_t>(sorted_.size()));
+}
+
+void TileGrid::build(const TilePoints& points, const TilePlace& place, const UnitScale& scale) {
+  find_keys(points, place, scale);
+  sort_points(points);
+  sum_moments(scale);
+  for (std::size_t i = 0; i + 1 < levels_.size(); ++i) {
+    coarsen(levels_[i], levels_[i + 1]);
+  }
+}
+
+std::array<std::uint64_t, 3> TileGrid::centre(int level, int ix, int iy, std::uint16_t z) const {
+  const int bits = kVoxelBits + level;
+  const auto middle = [bits](int voxel) {
+    return (static_cast<std::uint64_t>(voxel) << bits) + (std::uint64_t{1} << (bits - 1));
+  };
+  return {middle(ix), middle(iy), middle(z)};
+}
+
+}  // namespace roomcut

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "stages/ingest/scan_frame.h"
+#include "stages/ingest/tile_store.h"
+#include "stages/ingest/voxel_level.h"
+
+namespace roomcut {
+
+/// A tile's place, in tile edges from the local origin, and the kept layers of it and the eight around it
+/// (row-major, itself in the middle; bit i: layer i above `window_z`).
+struct TilePlace {
+  std::int32_t ix = 0, iy = 0;
+  std::int32_t window_z = 0;
+  std::array<std::uint64_t, 9> layers{};
+};
+
+/// The points of one tile and its halo sorted by voxel, and their moments at every level.
+class TileGrid {
+ public:
+  struct Point {
+    float x, y, z;
+    std::uint16_t hint;
+    std::uint16_t column;
+  };
+
+  /// Sorts by (column, height); points of one voxel keep file order. Time linear in the points.
+  void build(const TilePoints& points, const TilePlace& place, const UnitScale& scale);
+
+  const std::vector<Point>& points() const { return sorted_; }
+  /// Points of voxel v of level 0: [first_point()[v], first_point()[v + 1]).
+  const std::vector<std::uint32_t>& first_point() const { return first_point_; }
+  VoxelLevel& level(int i) { return levels_[static_cast<std::size_t>(i)]; }
+  const VoxelLevel& level(int i) const { return levels_[static_cast<std::size_t>(i)]; }
+  /// Centre of a voxel in units from the tile's corner, as the moments count.
+  std::array<std::uint64_t, 3> centre(int level, int ix, int iy, std::uint16_t z) const;
+
+ private:
+  void find_keys(const TilePoints& points, const TilePlace& place, const UnitScale& scale);
+  void sort_points(const TilePoints& points);
+  void sum_moments(const UnitScale& scale);
+
+  std::array<std::int32_t, 3>
+      corner_{};  ///< of the halo, local units; the base in height is a coarsest voxel's
+  std::vector<std::uint16_t> column_, height_;  ///< per input point; column kDropped = not kept
+  std::vector<std::uint32_t> heights_begin_, columns_begin_;
+  std::vector<Point> by_height_, sorted_;
+  std::vector<std::uint32_t> first_point_;
+  std::array<VoxelLevel, fixed_grid::kLevels> levels_;
+};
+
+}  // namespace roomcut

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <numeric>
+
+#include "common/errors/codes.h"
+#include "stages/ingest/ingest.h"
+#include "stages/ingest/quantisation.h"
+
+namespace roomcut {
+
+namespace {
+
+constexpr std::uint64_t kFewestPoints = 100;
+constexpr double kLargestFarShare = 0.1;  // more points beyond the window than this are no ghosts
+constexpr double kLargest_m = 2000;
+constexpr double kSmallest_m = 0.5;
+
+/// The first block that has a finite point: what frame and quantisation are judged by.
+ScanBlock first_useful_block(const ScanReader& reader) {
+  ScanBlock block;
+  for (std::size_t i = 0; i < reader.blocks(); ++i) {
+    reader.read(i, block);
+    for (std::size_t k = 0; k < block.size(); ++k) {
+      if (std::isfinite(block.x[k]) && std::isfinite(block.y[k]) && std::isfinite(block.z[k])) {
+        return block;
+      }
+    }
+  }
+  return block;
+}
+
+/// The error of the earliest block wins, whatever thread comes first.
+class FirstError {
+ public:
+  bool before(std::size_t index) const { return index > earliest_.load(std::memory_order_relaxed); }
+  void note(std::size_t index) {
+    const std::scoped_lock lock(mutex_);
+    if (index < earliest_) {
+      earliest_ = index;
+      error_ = std::current_exception();
+    }
+  }
+  void rethrow() const {
+    if (error_) {
+      std::rethrow_exception(error_);
+    }
+  }
+
+ private:
+  std::mutex mutex_;
+  std::atomic<std::size_t> earliest_{static_cast<std::size_t>(-1)};
+  std::exception_ptr error_;
+};
+
+struct BlockCounts {
+  std::uint64_t points = 0, not_finite = 0, far = 0;
+};
+
+/// What one thread needs to sort blocks.
+struct Sorting {
+  ScanBlock block;
+  LocalPoints local;
+  TileSorter sorter;
+};
+
+std::vector<BlockCounts> sort_blocks(const ScanReader& reader, const ScanFrame& frame, const UnitScale& scale,
+                                     const IngestParams& params, TileStore& store, const Advance& advance) {
+  std::vector<BlockCounts> counts(reader.blocks());
+  tbb::enumerable_thread_specific<Sorting> per_thread([&] {
+    return Sorting{{}, {}, TileSorter(frame, scale, params)};
+  });
+  FirstError error;
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, reader.blocks(), 1),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t i = range.begin(); i < range.end() && !error.before(i); ++i) {
+          try {
+            Sorting& own = per_thread.local();
+            reader.read(i, own.block);
+            to_local(own.block, frame, scale, own.local);
+            SortedBlock sorted;
+            own.sorter.sort(own.local, sorted);
+            counts[i] = {own.block.size(), own.local.not_finite, own.local.far};
+            store.put(i, std::move(sorted));
+            if (advance) {
+              advance(1);
+            }
+          } catch (...) {
+            error.note(i);
+          }
+        }
+      },
+      tbb::simple_partitioner());
+  error.rethrow();
+  return counts;
+}
+
+void check_extent(const TiledScan& scan, std::uint64_t far, const ScanSettings& settings,
+                  double tile_edge_m) {
+  const IngestCounts& counts = scan.counts;
+  const std::string hint = "check the unit (--unit m, cm, mm, ft) and the coordinates";
+  if (static_cast<double>(far) > kLargestFarShare * static_cast<double>(counts.read - counts.not_finite)) {
+    throw StageError(errors::kScanExtent, settings.name,
+                     std::to_string(far) + " of " + std::to_string(counts.read) +
+                         " points lie kilometres from the others, taken as " + settings.unit,
+                     hint);
+  }
+  if (counts.kept < kFewestPoints) {
+    throw StageError(
+        errors::kScanTooFewPoints, settings.name,
+        "only " + std::to_string(counts.kept) + " usable points of " + std::to_string(counts.read),
+        "a building needs thousands; " + hint);
+  }
+  std::array<std::uint32_t, 4> box{~0U, 0, ~0U, 0};
+  for (const KeptTile& tile : scan.tiles) {
+    const std::uint32_t ix = tile.tile % fixed_grid::kWindowTiles;
+    const std::uint32_t iy = tile.tile / fixed_grid::kWindowTiles;
+    box = {std::min(box[0], ix), std::max(box[1], ix), std::min(box[2], iy), std::max(box[3], iy)};
+  }
+  const double extent = std::max(box[1] - box[0], box[3] - box[2]) * tile_edge_m;
+  if (extent > kLargest_m) {
+    throw StageError(
+        errors::kScanExtent, settings.name,
+        "the points span " + std::to_string(std::lround(extent)) + " m, taken as " + settings.unit, hint);
+  }
+}
+
+/// Few tiles may hold a scan that is tiny, because its unit is wrong.
+void check_size(const TiledScan& scan, const ScanSettings& settings) {
+  if (scan.tiles.size() > 4) {
+    return;
+  }
+  std::array<float, 6> box{1e9F, -1e9F, 1e9F, -1e9F, 1e9F, -1e9F};
+  TilePoints points;
+  for (const KeptTile& tile : scan.tiles) {
+    scan.store->gather(tile.tile, points);
+    const std::array<const std::vector<float>*, 3> axes{&points.x, &points.y, &points.z};
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (const float value : *axes[k]) {
+        box[2 * k] = std::min(box[2 * k], value);
+        box[2 * k + 1] = std::max(box[2 * k + 1], value);
+      }
+    }
+  }
+  const double extent = std::max({box[1] - box[0], box[3] - box[2], box[5] - box[4]});
+  if (extent < kSmallest_m) {
+    throw StageError(errors::kScanExtent, settings.name,
+                     "the points span only " + std::to_string(extent) + " m, taken as " + settings.unit,
+                     "check the unit (--unit m, cm, mm, ft) and the coordinates");
+  }
+}
+
+}  // namespace
+
+TiledScan tile_scan(const ScanReader& reader, const ScanSettings& settings, const IngestParams& params,
+                    const Advance& advance) {
+  const UnitScale scale(params.voxel_edge_m);
+  TiledScan scan;
+  {
+    const ScanBlock sample = first_useful_block(reader);
+    scan.frame = choose_frame(sample, settings.unit, settings.up, params.voxel_edge_m);
+    scan.step_m = quantisation_step(sample, scan.frame, reader);
+  }
+  scan.store = std::make_unique<TileStore>(settings.scratch_folder, reader.blocks(), settings.memory_bytes,
+                                           reader.has_normals());
+  const std::vector<BlockCounts> blocks =
+      sort_blocks(reader, scan.frame, scale, params, *scan.store, advance);
+  IngestCounts& counts = scan.counts;
+  std::uint64_t far = 0;
+  for (const BlockCounts& block : blocks) {
+    counts.read += block.points;
+    counts.not_finite += block.not_finite;
+    far += block.far;
+  }
+  reader.check_total(counts.read);
+  if (counts.read == counts.not_finite) {
+    throw StageError(errors::kScanNoPoints, settings.name,
+                     counts.read == 0
+                         ? "there is not one point in it"
+                         : "none of its " + std::to_string(counts.read) + " points has finite coordinates",
+                     "export the scan again");
+  }
+  scan.tiles = without_ghosts(scan.store->index_tiles());
+  for (const KeptTile& tile : scan.tiles) {
+    counts.kept += tile.points;
+  }
+  counts.ghosts = counts.read - counts.not_finite - counts.kept;
+  check_extent(scan, far, settings, scale.tile_edge_m());
+  check_size(scan, settings);
+  return scan;
+}
+
+}  // namespace roomcut

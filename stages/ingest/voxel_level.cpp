@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/ingest/voxel_level.h"
+
+#include <algorithm>
+
+namespace roomcut {
+
+void VoxelLevel::clear(int at_level) {
+  level = at_level;
+  columns = (fixed_grid::kTileVoxels + 2 * fixed_grid::kHaloVoxels) >> at_level;
+  begin.clear();
+  z.clear();
+  count.clear();
+  moments.clear();
+  parent.clear();
+}
+
+void coarsen(VoxelLevel& fine, VoxelLevel& coarse) {
+  coarse.clear(fine.level + 1);
+  fine.parent.resize(fine.size());
+  for (int iy = 0; iy < coarse.columns; ++iy) {
+    for (int ix = 0; ix < coarse.columns; ++ix) {
+      coarse.begin.push_back(static_cast<std::uint32_t>(coarse.size()));
+      std::array<std::uint32_t, 4> at{};
+      std::array<std::uint32_t, 4> end{};
+      for (int k = 0; k < 4; ++k) {
+        const std::size_t column = fine.column(2 * ix + k % 2, 2 * iy + k / 2);
+        at[static_cast<std::size_t>(k)] = fine.begin[column];
+        end[static_cast<std::size_t>(k)] = fine.begin[column + 1];
+      }
+      while (true) {
+        int lowest = INT32_MAX;
+        for (std::size_t k = 0; k < 4; ++k) {
+          lowest = at[k] < end[k] ? std::min(lowest, fine.z[at[k]] / 2) : lowest;
+        }
+        if (lowest == INT32_MAX) {
+          break;
+        }
+        const auto voxel = static_cast<std::uint32_t>(coarse.size());
+        coarse.z.push_back(static_cast<std::uint16_t>(lowest));
+        coarse.count.push_back(0);
+        Moments& sum = coarse.moments.emplace_back();
+        for (std::size_t k = 0; k < 4; ++k) {
+          for (; at[k] < end[k] && fine.z[at[k]] / 2 == lowest; ++at[k]) {
+            coarse.count.back() += fine.count[at[k]];
+            sum.add(fine.moments[at[k]]);
+            fine.parent[at[k]] = voxel;
+          }
+        }
+      }
+    }
+  }
+  coarse.begin.push_back(static_cast<std::uint32_t>(coarse.size()));
+}
+
+void neighbour_counts(const VoxelLevel& level, std::vector<std::uint32_t>& counts) {
+  counts.assign(level.size(), 0);
+  for (int iy = level.halo(); iy < level.columns - level.halo(); ++iy) {
+    for (int ix = level.halo(); ix < level.columns - level.halo(); ++ix) {
+      const std::size_t column = level.column(ix, iy);
+      if (level.begin[column] == level.begin[column + 1]) {
+        continue;
+      }
+      Neighbourhood around(level, ix, iy);
+      for (std::uint32_t voxel = level.begin[column]; voxel < level.begin[column + 1]; ++voxel) {
+        std::uint32_t sum = 0;
+        around.visit(level.z[voxel], [&](std::uint32_t other, int) { sum += level.count[other]; });
+        counts[voxel] = sum;
+      }
+    }
+  }
+}
+
+}  // namespace roomcut
