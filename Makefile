@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The face of roomcut: `make help`. The rules of the pipeline are in stages/pipeline.mk, run inside the work folder by
+# stages/pipeline.sh. Which packages are needed stands in .ci/debian-packages.txt.
+
+.DEFAULT_GOAL := help
+MAKEFLAGS += --no-print-directory --no-builtin-rules
+.SUFFIXES:
+
+# From the command line; passed on through the environment, so that names may hold spaces and any letters.
+BUILD ?= build
+export SCAN WORK CONFIG BUILD JOBS UP UNIT TRUTH QUIET
+
+stages := ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines \
+          final_partition final_weigh_faces final_raycast final_graphcut extract report
+sources = git ls-files -co --exclude-standard '*.h' '*.cpp'
+generator = $$(command -v ninja > /dev/null && echo "-G Ninja")
+# Tests run make themselves; it must not take itself for a part of this one.
+quiet_make = env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL
+pipeline = +@sh stages/pipeline.sh
+
+.PHONY: help deps build test demo run status verify edit-lines diff-lines drop-edit evaluate bench tidy format ready \
+        $(stages) $(stages:%=rerun-%) $(stages:%=clean-%) $(stages:%=plot-%)
+
+help:
+	@printf '%s\n' \
+	'make demo                     set up, build, make a synthetic two-storey scan, reconstruct it (work/demo/)' \
+	'make test                     set up, build, run every test' \
+	'make build | deps             build into build/ | install the Debian packages that are missing' \
+	'' \
+	'make run SCAN=office.ply      the whole pipeline into work/office/' \
+	'make STAGE SCAN=…             up to and including one stage' \
+	'make rerun-STAGE SCAN=…       that stage again, and of what follows only what it changes' \
+	'make plot-STAGE | clean-STAGE pictures of what is there up to a stage | delete what a stage wrote' \
+	'make status | verify SCAN=…   what would run, and why | compute all digests again' \
+	'make edit-lines SCAN=…        copy the lines to work/office/edits/wall_lines.geojson, to be edited' \
+	'make diff-lines | drop-edit   what the edit changes | move it aside' \
+	'make report | evaluate TRUTH=truth.off | bench | tidy | format' \
+	'' \
+	'Stages: ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines' \
+	'        (second pass) final_partition final_weigh_faces final_raycast final_graphcut   extract report' \
+	'WORK=folder    instead of work/<name of the scan>      CONFIG=my.yaml  parameters instead of pipeline.yaml' \
+	'UP=y UNIT=mm   how the scan is to be read              JOBS=n          threads of a stage; default: all' \
+	'BUILD=folder   of the programs instead of build/       QUIET=1         errors only'
+
+deps:
+	@sh .ci/install-packages.sh
+
+build: deps
+	@[ -f "$$BUILD/CMakeCache.txt" ] || cmake -S . -B "$$BUILD" $(generator)
+	@cmake --build "$$BUILD"
+
+test: build
+	@$(quiet_make) ctest --test-dir "$$BUILD" --output-on-failure -j "$$(nproc)"
+
+# The programs, built when there are none yet. After a change of the sources: make build.
+ready:
+	@if [ ! -x "$$BUILD/bin/report" ] || [ ! -x "$$BUILD/bin/artefact" ]; then $(MAKE) build; fi
+
+demo: build
+	@mkdir -p work/demo
+	@"$$BUILD/bin/synthesize" --scene tests/data/scenes/paper_two_storeys.json --scan-out work/demo/scan.ply \
+	  --truth-out work/demo/truth.off --truth-json work/demo/truth.json
+	+@SCAN=work/demo/scan.ply WORK=work/demo sh stages/pipeline.sh run
+	+@SCAN=work/demo/scan.ply WORK=work/demo TRUTH=work/demo/truth.off sh stages/pipeline.sh evaluate
+	@printf '%s\n' '' 'The demo lies in work/demo/:' '  scan.ply                the scan, made from a scene in tests/data/scenes/' \
+	  '  model.ply, model.obj    the model' '  summary.json            storeys, rooms, areas, volumes, checks' \
+	  '  report.html             every stage in pictures' '  evaluate/scores.json    how far from the truth (truth.off)' \
+	  'Your own scan: make run SCAN=office.ply'
+
+run status verify edit-lines diff-lines drop-edit evaluate: ready
+	$(pipeline) $@
+
+$(stages): ready
+	$(pipeline) run $@
+$(stages:%=rerun-%): ready
+	$(pipeline) rerun $(@:rerun-%=%)
+$(stages:%=clean-%): ready
+	$(pipeline) clean $(@:clean-%=%)
+$(stages:%=plot-%): ready
+	$(pipeline) plot $(@:plot-%=%)
+
+bench: build
+	@sh tests/bench/bench.sh "$$BUILD"
+
+tidy: build
+	@sh .ci/install-packages.sh debian-packages-ci.txt
+	@$(sources) -- '*.cpp' | xargs -P "$$(nproc)" -n 4 clang-tidy -p "$$BUILD" --quiet
+
+format:
+	@sh .ci/install-packages.sh debian-packages-ci.txt
+	@$(sources) | xargs clang-format -i

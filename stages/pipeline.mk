@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The rules of the pipeline. stages/pipeline.sh runs this file inside a work folder, so that all names here are relative and have
+# no spaces, whatever the folder is called. It has brought inputs/ and params/ up to date: those files change only when
+# their content does. From the environment: BIN, SCAN, UP, UNIT, THREADS, STATUS.
+#
+# How a stage runs again only when it must:
+#   params/<stage>.json  resolved parameters and the stage's revision; written anew only when they differ
+#   inputs/              digests of what enters from outside (scan, its options, the hand edit); likewise
+#   stamps/<name>        written when the stage has run, with the digests of its outputs
+# An output whose payload is as before keeps its old time (the stage sees to that, `artefact settle` when the old file was gone),
+# so that nothing after it runs. The recipe `@:` of an output makes Make look at its time again after the stage has run.
+# A stage that is killed or fails leaves no stamp and runs again. The programs themselves are no prerequisites: a
+# rebuild repeats hours of work only when a stage's revision changed.
+
+MAKEFLAGS += --no-builtin-rules --no-print-directory
+.SUFFIXES:
+.PHONY: FORCE run
+FORCE:
+
+names :=
+
+# $(call stage,name,program,outputs,inputs,options)
+define stage
+names += $(1)
+missing_$(1) := $(filter-out $(wildcard $(3)),$(3))
+.PHONY: $(1)
+$(1): $(3) ; @:
+$(3): stamps/$(1) ; @:
+stamps/$(1): params/$(2).json $(4) $$(if $$(missing_$(1)),FORCE)
+	$$(call run_stage,$(1),$(2),$(3),$(5))
+endef
+
+ifdef STATUS
+run_stage = @echo "$(1) $(filter-out FORCE,$?) $(missing_$(1):%=missing:%)" >> stamps/.status
+else
+run_stage = @if [ -f stamps/$(1) ]; then mv -f stamps/$(1) stamps/$(1).before; fi; \
+	"$$BIN/$(2)" --work . --params params/$(2).json --log logs/$(1).json $(THREADS:%=--threads %) $(VERBOSITY) $(4) && \
+	"$$BIN/artefact" settle stamps/$(1) "$(missing_$(1))" $(3)
+endif
+
+lines_30 := 30_detect_lines/wall_lines.geojson
+lines_40 := 40_accept_lines/wall_lines.geojson
+lines_80 := 80_refine_lines/wall_lines.geojson
+cloud    := 10_ingest/cloud.h5
+slices   := 20_slice/slices.h5
+cells    := 50_partition/cells.h5
+weights  := 55_weigh_faces/weights.h5
+terms    := 60_raycast/data_terms.h5
+labels   := 70_graphcut/labels.h5
+final    := 90_final/cells.h5 90_final/weights.h5 90_final/data_terms.h5 90_final/labels.h5
+
+$(eval $(call stage,ingest,ingest,$(cloud),inputs/scan.id inputs/scan.options,--scan "$$$$SCAN" --up "$$$$UP" --unit "$$$$UNIT"))
+$(eval $(call stage,slice,slice,$(slices),$(cloud)))
+$(eval $(call stage,detect_lines,detect_lines,$(lines_30) 30_detect_lines/hough.h5,$(slices)))
+$(eval $(call stage,accept_lines,accept_lines,$(lines_40),$(lines_30) inputs/edit.id))
+$(eval $(call stage,partition,partition,$(cells),$(lines_40) $(slices)))
+$(eval $(call stage,weigh_faces,weigh_faces,$(weights),$(cells) $(cloud)))
+$(eval $(call stage,raycast,raycast,$(terms),$(cells) $(weights)))
+$(eval $(call stage,graphcut,graphcut,$(labels),$(cells) $(weights) $(terms)))
+$(eval $(call stage,refine_lines,refine_lines,$(lines_80),$(lines_40) $(cells) $(labels) $(weights) $(cloud)))
+
+# The second pass: the same programs and parameters on the refined lines.
+$(eval $(call stage,final_partition,partition,90_final/cells.h5,$(lines_80) $(slices),\
+  --lines $(lines_80) --cells-out 90_final/cells.h5))
+$(eval $(call stage,final_weigh_faces,weigh_faces,90_final/weights.h5,90_final/cells.h5 $(cloud),\
+  --cells 90_final/cells.h5 --weights-out 90_final/weights.h5))
+$(eval $(call stage,final_raycast,raycast,90_final/data_terms.h5,90_final/cells.h5 90_final/weights.h5,\
+  --cells 90_final/cells.h5 --weights 90_final/weights.h5 --terms-out 90_final/data_terms.h5))
+$(eval $(call stage,final_graphcut,graphcut,90_final/labels.h5,90_final/cells.h5 90_final/weights.h5 90_final/data_terms.h5,\
+  --cells 90_final/cells.h5 --weights 90_final/weights.h5 --terms 90_final/data_terms.h5 --labels-out 90_final/labels.h5))
+
+$(eval $(call stage,extract,extract,model.ply model.obj summary.json,$(final)))
+$(eval $(call stage,report,report,report.html,$(cloud) $(slices) $(lines_30) 30_detect_lines/hough.h5 $(lines_40) $(cells) \
+  $(weights) $(terms) $(labels) $(lines_80) $(final) model.ply summary.json))
+
+run: $(names) ; @:
