@@ -76,9 +76,8 @@ std::string find_violation(const CellComplex& complex);
 /// surface tell, which side of it is empty. Indices as in CellComplex.
 struct FaceWeights {
   std::vector<float> wall_omega;  ///< wall faces: density-corrected covered share, 0 … 1
-  std::vector<float>
-      wall_left;  ///< share of the coverage that speaks for empty space on the edge's left side, 0 … 1
-  std::vector<float> wall_right;  ///< … on its right side
+  /// Share of the coverage that speaks for empty space on the edge's left and right side, 0 … 1.
+  std::vector<float> wall_left, wall_right;
   std::vector<std::uint32_t> wall_points;
   std::vector<float> level_omega;    ///< level faces: covered share by any horizontal surface
   std::vector<float> level_floor;    ///< covered share by floor surface (empty above)
@@ -90,16 +89,15 @@ struct FaceWeights {
 /// Evidence and data term per cell (paper §2, data term). Every evidence is kept, so that one sees why a cell
 /// came out.
 struct DataTerms {
-  std::vector<float> kappa;       ///< share of rays with an odd number of crossings, 0 … 1
-  std::vector<float> vertical;    ///< nearest permanent face straight up and down: +1 empty … -1 solid
-  std::vector<float> around;      ///< the same along the rays: +1 empty … -1 solid
-  std::vector<float> winding;     ///< mean over the rays of the signed crossings (leaving empty space +,
-                                  ///< entering it -): 1 inside, 0 outside
-  std::vector<float> surface_m2;  ///< covered area of the cell's own faces, + where it faces the cell, -
-                                  ///< where it turns its back [m^2]
-  std::vector<float>
-      observed;             ///< share of the rays that end on a seen face: 0 = nothing is known of the cell
-  std::vector<float> beta;  ///< probability that the cell is empty, 0 … 1
+  std::vector<float> kappa;     ///< share of rays with an odd number of crossings, 0 … 1
+  std::vector<float> vertical;  ///< nearest permanent face straight up and down: +1 empty … -1 solid
+  std::vector<float> around;    ///< the same along the rays: +1 empty … -1 solid
+  /// Mean over the rays of the signed crossings (leaving empty space +, entering it -): 1 inside, 0 outside.
+  std::vector<float> winding;
+  /// Covered area of the cell's own faces, + where it faces the cell, - where it turns its back [m^2].
+  std::vector<float> surface_m2;
+  std::vector<float> observed;  ///< share of rays that end on a seen face: 0 = nothing is known of the cell
+  std::vector<float> beta;      ///< probability that the cell is empty, 0 … 1
   std::vector<double>
       d_empty;  ///< cost of the label empty: V (1 - beta) + what its own faces' backs add [m^3]
   std::vector<double> d_solid;  ///< cost of the label solid: V beta + what its own faces' fronts add [m^3]
