@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/refine_lines/adjust.h"
+
+#include <ceres/ceres.h>
+
+#include <array>
+#include <cmath>
+
+namespace roomcut {
+
+namespace {
+
+/// Parameter block {turn, shift}.
+class ObservationCost : public ceres::SizedCostFunction<1, 2> {
+ public:
+  explicit ObservationCost(const LineResidual& residual) : residual_(residual) {}
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    const Pose pose{parameters[0][0], parameters[0][1]};
+    residuals[0] = residual_.value(pose);
+    if (jacobians != nullptr && jacobians[0] != nullptr) {
+      jacobians[0][0] = residual_.by_turn(pose);
+      jacobians[0][1] = residual_.by_shift();
+    }
+    return true;
+  }
+
+ private:
+  LineResidual residual_;
+};
+
+/// Holds a pose near where it came, each part with its own sigma.
+class PriorCost : public ceres::SizedCostFunction<2, 2> {
+ public:
+  PriorCost(const Pose& home, const LinePrior& prior) : home_(home), prior_(prior) {}
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    residuals[0] = (parameters[0][0] - home_.turn) / prior_.turn_rad;
+    residuals[1] = (parameters[0][1] - home_.shift) / prior_.shift_m;
+    if (jacobians != nullptr && jacobians[0] != nullptr) {
+      jacobians[0][0] = 1 / prior_.turn_rad;
+      jacobians[0][1] = 0;
+      jacobians[0][2] = 0;
+      jacobians[0][3] = 1 / prior_.shift_m;
+    }
+    return true;
+  }
+
+ private:
+  Pose home_;
+  LinePrior prior_;
+};
+
+/// Draws a line's direction to its class: ({turn, shift}, {angle of the class}).
+class ParallelCost : public ceres::SizedCostFunction<1, 2, 1> {
+ public:
+  ParallelCost(double theta, double sigma) : theta_(theta), sigma_(sigma) {}
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    residuals[0] = off_class(theta_ + parameters[0][0], parameters[1][0]) / sigma_;
+    if (jacobians != nullptr && jacobians[0] != nullptr) {
+      jacobians[0][0] = 1 / sigma_;
+      jacobians[0][1] = 0;
+    }
+    if (jacobians != nullptr && jacobians[1] != nullptr) {
+      jacobians[1][0] = -1 / sigma_;
+    }
+    return true;
+  }
+
+ private:
+  double theta_, sigma_;
+};
+
+using Block = std::array<double, 2>;
+
+void add_line(const Adjustment& adjustment, std::size_t i, ceres::Problem& problem, Block& block,
+              std::vector<double>& angles) {
+  const LineProblem& line = adjustment.lines[i];
+  problem.AddParameterBlock(block.data(), 2);
+  problem.AddResidualBlock(new PriorCost(unmoved(line), line.prior), nullptr, block.data());
+  for (const LineResidual& residual : line.residuals) {
+    problem.AddResidualBlock(new ObservationCost(residual), new ceres::CauchyLoss(kCauchy), block.data());
+  }
+  const int group = adjustment.classes.class_of.empty() ? -1 : adjustment.classes.class_of[i];
+  if (group >= 0 && adjustment.regularity_rad > 0) {
+    problem.AddResidualBlock(new ParallelCost(line.line.theta, adjustment.regularity_rad), nullptr,
+                             block.data(), &angles[static_cast<std::size_t>(group)]);
+  }
+  if (adjustment.constant[i]) {
+    problem.SetParameterBlockConstant(block.data());
+  }
+}
+
+}  // namespace
+
+bool adjust(Adjustment& adjustment) {
+  std::vector<Block> blocks;
+  for (const Pose& pose : adjustment.poses) {
+    blocks.push_back({pose.turn, pose.shift});
+  }
+  std::vector<double> angles = adjustment.classes.angle;
+  ceres::Problem problem;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    add_line(adjustment, i, problem, blocks[i], angles);
+  }
+  ceres::Solver::Options options;
+  options.num_threads = 1;
+  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  options.max_num_iterations = 100;
+  options.function_tolerance = 1e-12;
+  options.parameter_tolerance = 1e-12;
+  options.gradient_tolerance = 1e-12;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  if (!summary.IsSolutionUsable()) {
+    return false;
+  }
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    adjustment.poses[i] = {blocks[i][0], blocks[i][1]};
+  }
+  adjustment.classes.angle = angles;
+  return true;
+}
+
+}  // namespace roomcut

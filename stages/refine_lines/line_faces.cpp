@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/refine_lines/line_faces.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace roomcut {
+
+namespace {
+
+constexpr double kCovered = 0.9;  ///< share of a bin that must be surface
+constexpr double kFewestBins = 10;
+constexpr double kShortestBin_m = 0.02;
+
+struct Piece {
+  std::size_t layer;
+  double t0, t1;
+  bool towards_normal;  ///< the empty side
+};
+
+bool is_empty(const CellComplex& complex, const std::vector<std::uint8_t>& label, std::int32_t face,
+              std::size_t layer) {
+  return face >= 0 && label[complex.cell(static_cast<std::size_t>(face), layer)] ==
+                          static_cast<std::uint8_t>(Label::kEmpty);
+}
+
+std::vector<std::vector<Piece>> find_pieces(const CellComplex& complex,
+                                            const std::vector<std::uint8_t>& label) {
+  std::vector<std::vector<Piece>> pieces(complex.lines.size());
+  for (const CellComplex::Edge& edge : complex.edges) {
+    if (edge.line < 0) {
+      continue;
+    }
+    const Line2& line = complex.lines[static_cast<std::size_t>(edge.line)].line;
+    const double from = line.along(complex.vertices[static_cast<std::size_t>(edge.v0)]);
+    const double to = line.along(complex.vertices[static_cast<std::size_t>(edge.v1)]);
+    for (std::size_t layer = 0; layer < complex.layers(); ++layer) {
+      const bool left = is_empty(complex, label, edge.left, layer);
+      if (left != is_empty(complex, label, edge.right, layer)) {
+        // The normal is the direction turned by -90 degrees: it points to the right of an edge that runs
+        // along it.
+        pieces[static_cast<std::size_t>(edge.line)].push_back(
+            {layer, std::min(from, to), std::max(from, to), left != (to > from)});
+      }
+    }
+  }
+  return pieces;
+}
+
+void raster(const std::vector<Piece>& pieces, LineFaces& faces) {
+  std::vector<double> covered[2];  // by faces whose empty side is away from, towards the normal [m]
+  covered[0].assign(faces.bins * faces.layers, 0);
+  covered[1].assign(faces.bins * faces.layers, 0);
+  for (const Piece& piece : pieces) {
+    const auto first =
+        static_cast<std::size_t>(std::max(0.0, std::floor((piece.t0 - faces.t0) / faces.bin_m)));
+    for (std::size_t bin = first; bin < faces.bins; ++bin) {
+      const double low = faces.t0 + static_cast<double>(bin) * faces.bin_m;
+      const double overlap = std::min(piece.t1, low + faces.bin_m) - std::max(piece.t0, low);
+      if (overlap <= 0 && low > piece.t1) {
+        break;
+      }
+      covered[piece.towards_normal ? 1 : 0][bin * faces.layers + piece.layer] += std::max(0.0, overlap);
+    }
+  }
+  for (std::size_t i = 0; i < faces.side.size(); ++i) {
+    const double most = std::max(covered[0][i], covered[1][i]);
+    if (most >= kCovered * faces.bin_m) {
+      faces.side[i] = covered[1][i] >= covered[0][i] ? 1 : -1;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<LineFaces> find_line_faces(const CellComplex& complex, const std::vector<std::uint8_t>& label,
+                                       double bin_m) {
+  const std::vector<std::vector<Piece>> pieces = find_pieces(complex, label);
+  std::vector<LineFaces> result(complex.lines.size());
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    LineFaces& faces = result[i];
+    faces.line = complex.lines[i].line;
+    faces.layers = complex.layers();
+    if (pieces[i].empty()) {
+      continue;
+    }
+    faces.t0 = pieces[i].front().t0;
+    faces.t1 = pieces[i].front().t1;
+    for (const Piece& piece : pieces[i]) {
+      faces.t0 = std::min(faces.t0, piece.t0);
+      faces.t1 = std::max(faces.t1, piece.t1);
+      faces.area_m2 += (piece.t1 - piece.t0) * complex.height(piece.layer);
+    }
+    const double hull = faces.t1 - faces.t0;
+    const double step = std::clamp(hull / kFewestBins, std::min(kShortestBin_m, bin_m), bin_m);
+    faces.bins = static_cast<std::size_t>(std::max(1.0, std::round(hull / step)));
+    faces.bin_m = hull / static_cast<double>(faces.bins);
+    faces.side.assign(faces.bins * faces.layers, 0);
+    raster(pieces[i], faces);
+  }
+  return result;
+}
+
+}  // namespace roomcut

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/cells/cells_io.h"
+#include "common/cli/run_stage.h"
+#include "common/cloud/cloud_io.h"
+#include "common/wall_lines/wall_lines_io.h"
+#include "stages/refine_lines/params.h"
+#include "stages/refine_lines/refine_lines.h"
+
+namespace {
+
+using namespace roomcut;
+
+StageInfo info() {
+  StageInfo stage;
+  stage.name = "refine_lines";
+  stage.revision = 1;
+  stage.summary = "Refines the wall lines that carry a wall in the first cut, on raw points";
+  stage.inputs = {{"lines", "40_accept_lines/wall_lines.geojson", "Accepted wall lines"},
+                  {"cells", "50_partition/cells.h5", "Cell complex of the first pass"},
+                  {"labels", "70_graphcut/labels.h5", "Its labels"},
+                  {"cloud", "10_ingest/cloud.h5", "Points"}};
+  stage.outputs = {{"lines-out", "80_refine_lines/wall_lines.geojson", "Refined wall lines"}};
+  return stage;
+}
+
+void report(StageRun& run, const Refinement& refinement) {
+  run.count("lines", static_cast<double>(refinement.lines.lines.size()));
+  run.count("refined", refinement.refined);
+  run.count("held", refinement.held);
+  run.count("dropped", refinement.dropped);
+  run.count("merged", refinement.merged);
+  run.count("directions", refinement.classes);
+  run.count("observations", refinement.observations);
+  run.count("points", static_cast<double>(refinement.points));
+  run.count("median shift", 1e3 * refinement.median_shift_m, "mm");
+  run.count("largest shift", 1e3 * refinement.largest_shift_m, "mm");
+  if (!refinement.converged) {
+    run.warn("the common adjustment failed; every line keeps its own fit");
+  }
+}
+
+void body(StageRun& run, const RefineLinesParams& params) {
+  const WallLinesFile lines = read_wall_lines(run.input("lines"));
+  if (!params.enabled) {
+    write_wall_lines(run.output("lines-out"), lines.content, run.provenance());
+    run.count("lines", static_cast<double>(lines.content.lines.size()));
+    return;
+  }
+  const CellsFile cells = read_cells(run.input("cells"));
+  const Labels labels = read_labels(run.input("labels"), cells);
+  const CloudReader cloud(run.input("cloud"));
+  LineRefiner refiner(lines.content, cells.complex, labels.label, cloud.header().noise_m, params);
+  if (!params.band_m) {
+    run.chose("band_m", refiner.band_m(), "the larger of 6 cm and 5 x noise");
+  }
+  if (!params.merge_m) {
+    run.chose("merge_m", refiner.merge_m(), "the larger of 1.5 cm and 1.2 x noise");
+  }
+  Progress progress = run.progress("observing", cloud.header().points);
+  cloud.for_each_tile([&](std::size_t, const CloudTile& tile) { refiner.add(tile); },
+                      [&](std::uint64_t points) { progress.advance(points); });
+  const Refinement refinement = refiner.finish();
+  write_wall_lines(run.output("lines-out"), refinement.lines, run.provenance());
+  report(run, refinement);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  RefineLinesParams params;
+  return run_stage(argc, argv, info(), refine_lines_parameters(params),
+                   [&](StageRun& run) { body(run, params); });
+}

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <numbers>
+#include <optional>
+#include <string>
+
+#include "common/params/params.h"
+
+namespace roomcut {
+
+struct RefineLinesParams {
+  bool enabled = true;
+  double min_interface_m2 = 0.2;
+  std::optional<double> band_m;  ///< auto: max(6 cm, 5 noise)
+  double bin_m = 0.1;
+  double regularity_rad = 0.1 * std::numbers::pi / 180;
+  std::optional<double> merge_m;  ///< auto: max(1.5 cm, 1.2 noise)
+  double merge_angle_rad = 0.6 * std::numbers::pi / 180;
+  std::string edited_lines = "prior";
+};
+
+inline ParameterTable refine_lines_parameters(RefineLinesParams& p) {
+  return {
+      boolean("enabled", p.enabled, "Refine the lines; false passes them through: the paper's single pass."),
+      number(
+          "min_interface_m2", p.min_interface_m2, "m^2", 0, 100,
+          "Detected lines with less surface between empty and solid cells are dropped from the second pass."),
+      auto_number(
+          "band_m", p.band_m, "m", 0.005, 0.5,
+          "Half width of the band around a line whose points are observed; auto: max(0.06, 5 x noise)."),
+      number("bin_m", p.bin_m, "m", 0.01, 1, "Length of line that gives one observation."),
+      angle("regularity_deg", p.regularity_rad, 0, 5,
+            "How exactly walls of one direction (mod 90 deg) are taken to be parallel; 0 switches it off."),
+      auto_number("merge_m", p.merge_m, "m", 0, 0.2,
+                  "Refined lines of one face closer than this become one; auto: max(0.015, 1.2 x noise)."),
+      angle("merge_angle_deg", p.merge_angle_rad, 0, 5, "Lines that differ by more are never merged."),
+      choice("edited_lines", p.edited_lines, {"prior", "locked", "free"},
+             "Lines drawn or moved by hand: held near (2 cm, 1 deg), held exactly, or treated like detected "
+             "ones."),
+  };
+}
+
+}  // namespace roomcut

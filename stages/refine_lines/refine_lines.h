@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "common/cells/cell_complex.h"
+#include "common/cloud/cloud.h"
+#include "common/wall_lines/wall_line.h"
+#include "stages/refine_lines/params.h"
+
+namespace roomcut {
+
+struct Refinement {
+  WallLines lines;
+  int dropped = 0;  ///< detected lines that carry no surface of the first cut
+  int merged = 0;   ///< lines that went into another one
+  int refined = 0;  ///< lines that were adjusted
+  int held = 0;     ///< lines that stayed as they came: locked, or too few observations
+  int classes = 0;  ///< groups of parallel and perpendicular walls
+  int observations = 0;
+  std::uint64_t points = 0;                        ///< points that were observed
+  double median_shift_m = 0, largest_shift_m = 0;  ///< of the refined lines, at their centres
+  bool converged = true;  ///< false: Ceres failed, the lines are those of the single fits
+};
+
+/// Refines the lines that carry a wall in the first cut, on raw points (README: method). One pass: construct,
+/// add() every tile in any order and from any thread, finish(). The result is the same for any order and
+/// number of threads.
+class LineRefiner {
+ public:
+  /// `label` as Labels::label of `complex`, which `lines` were partitioned into; `noise_m` of the points off
+  /// their plane. All are copied or consumed here, except `complex`, which must outlive the refiner. Throws
+  /// StageError(kNoWallLines) when no line carries surface.
+  LineRefiner(const WallLines& lines, const CellComplex& complex, const std::vector<std::uint8_t>& label,
+              double noise_m, const RefineLinesParams& params);
+  ~LineRefiner();
+
+  void add(const CloudTile& tile);
+  Refinement finish();
+
+  double band_m() const;  ///< what `auto` resolved to
+  double merge_m() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace roomcut

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "stages/refine_lines/observe.h"
+
+namespace roomcut {
+
+namespace {
+
+constexpr double kTukey = 3.5;  ///< cut-off in standard deviations
+/// Variance of the biweight's location relative to the mean's, for normal noise and kTukey: E[psi^2] /
+/// E[psi']^2. The unit test integrates it again.
+constexpr double kTukeyVariance = 1.166;
+constexpr double kModeWindow = 2.0;  ///< half width of the first window in standard deviations
+constexpr int kIterations = 30;
+
+struct Bin {
+  double offset;
+  std::uint32_t count;
+};
+
+/// Centre of the fullest window; of equal ones that nearest to 0.
+double fullest_window(const std::array<Bin, OffsetHistogram::kBins>& bins, double width_m, double noise_m) {
+  const int reach = std::max(1, static_cast<int>(std::lround(kModeWindow * noise_m / width_m)));
+  double best_offset = 0;
+  std::uint64_t best_count = 0;
+  for (int centre = 0; centre < OffsetHistogram::kBins; ++centre) {
+    std::uint64_t count = 0;
+    double sum = 0;
+    for (int k = std::max(0, centre - reach); k <= std::min(OffsetHistogram::kBins - 1, centre + reach);
+         ++k) {
+      const Bin& bin = bins[static_cast<std::size_t>(k)];
+      count += bin.count;
+      sum += bin.count * bin.offset;
+    }
+    const double offset = count > 0 ? sum / static_cast<double>(count) : 0;
+    if (count > best_count || (count == best_count && std::abs(offset) < std::abs(best_offset))) {
+      best_count = count;
+      best_offset = offset;
+    }
+  }
+  return best_offset;
+}
+
+}  // namespace
+
+std::uint64_t OffsetHistogram::pack(double position_in_bin) {
+  const auto step = static_cast<std::uint64_t>(std::clamp(position_in_bin, 0.0, 1.0) * (kSteps - 1) + 0.5);
+  return (std::uint64_t{1} << kSumBits) + step;
+}
+
+double OffsetHistogram::mean(std::uint64_t packed) {
+  const std::uint64_t sum = packed & ((std::uint64_t{1} << kSumBits) - 1);
+  return static_cast<double>(sum) / (static_cast<double>(count(packed)) * (kSteps - 1));
+}
+
+RobustOffset robust_offset(std::span<const std::uint64_t> histogram, double half_m, double noise_m) {
+  const double width = 2 * half_m / OffsetHistogram::kBins;
+  const double noise = std::max(noise_m, 0.5 * width);
+  std::array<Bin, OffsetHistogram::kBins> bins{};
+  for (std::size_t k = 0; k < bins.size(); ++k) {
+    const std::uint32_t count = OffsetHistogram::count(histogram[k]);
+    bins[k] = {
+        count > 0 ? -half_m + (static_cast<double>(k) + OffsetHistogram::mean(histogram[k])) * width : 0,
+        count};
+  }
+  const double cut = kTukey * noise;
+  double location = fullest_window(bins, width, noise);
+  RobustOffset result;
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    double weights = 0;
+    double sum = 0;
+    double squares = 0;
+    std::uint32_t inside = 0;
+    for (const Bin& bin : bins) {
+      const double u = (bin.offset - location) / cut;
+      if (bin.count > 0 && std::abs(u) < 1) {
+        const double weight = bin.count * (1 - u * u) * (1 - u * u);
+        weights += weight;
+        sum += weight * bin.offset;
+        squares += bin.count * (bin.offset - location) * (bin.offset - location);
+        inside += bin.count;
+      }
+    }
+    if (inside == 0) {
+      return {};
+    }
+    const double next = sum / weights;
+    const bool settled = std::abs(next - location) < 1e-7;
+    location = next;
+    result = {location, kTukeyVariance * noise * noise / inside, squares / inside, inside};
+    if (settled) {
+      break;
+    }
+  }
+  return result;
+}
+
+}  // namespace roomcut
