@@ -2,6 +2,7 @@
 #include "stages/slice/surfaces.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -58,7 +59,9 @@ struct Block {
   double z() const { return moment / area; }
 };
 
+/// 0 for no values.
 double median(std::vector<double>& values) {
+  if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -78,21 +81,21 @@ double drift_of(const std::vector<SurfaceCell>& cells, const std::vector<std::si
     block.moment += cells[i].area_m2 * cells[i].z;
   }
   std::erase_if(blocks, [](const auto& entry) { return entry.second.area < 0.2 * kBlock * kBlock; });
-  std::vector<double> steps;
+  std::array<std::vector<double>, 2> steps;  // along x and along y: a floor may tilt one way only
   double area = 0, first = 0, second = 0;
   for (const auto& [place, block] : blocks) {
     area += block.area;
     first += block.area * block.z();
     second += block.area * block.z() * block.z();
-    for (const auto& next :
-         {std::make_pair(place.first, place.second + 1), std::make_pair(place.first + 1, place.second)}) {
-      if (const auto found = blocks.find(next); found != blocks.end()) {
-        steps.push_back(std::abs(found->second.z() - block.z()));
-      }
+    const std::array next = {std::make_pair(place.first, place.second + 1),
+                             std::make_pair(place.first + 1, place.second)};
+    for (std::size_t k = 0; k < next.size(); ++k) {
+      const auto found = blocks.find(next[k]);
+      if (found != blocks.end()) steps[k].push_back(std::abs(found->second.z() - block.z()));
     }
   }
   // A block holds tens to hundreds of points: their mean is good to a tenth of the noise or better.
-  if (steps.empty() || median(steps) < std::max(0.001, 0.2 * noise_m)) return 0;
+  if (std::max(median(steps[0]), median(steps[1])) < std::max(0.001, 0.2 * noise_m)) return 0;
   const double mean = first / area;
   return std::sqrt(std::max(0.0, second / area - mean * mean));
 }

@@ -90,12 +90,14 @@ void add_tile(const CloudTile& tile, const std::vector<EvidenceRange>& ranges, d
   }
 }
 
-/// Share of the range's height that is occupied, over what a closed wall of this density would show.
+/// Share of the range's height that is occupied, over what a closed wall of this density would show. On a
+/// sparse scan that is above 1 in one cell and 0 in the next: only their mean is right, so weights take it as
+/// it is, up to 2.
 double coverage_of(const EvidenceSum& sum, const EvidenceRange& range, double tau_m) {
   const double seen = static_cast<double>(std::popcount(sum.bins)) / range.bins;
   const double density = static_cast<double>(sum.count) / (static_cast<double>(sum.area) * kAreaUnit);
   const double expected = 1 - std::exp(-density * tau_m * range.bin_m());
-  return std::min(1.0, seen / std::max(expected, 0.04));
+  return std::min(2.0, seen / std::max(expected, 0.04));
 }
 
 void append_cell(const CellEntry<EvidenceSum>& entry, const EvidenceRange& range, double tau_m,
@@ -107,7 +109,7 @@ void append_cell(const CellEntry<EvidenceSum>& entry, const EvidenceRange& range
   grid.x.push_back(static_cast<float>(entry.key.ix * tau_m + static_cast<double>(sum.x) * kLengthUnit / n));
   grid.y.push_back(static_cast<float>(entry.key.iy * tau_m + static_cast<double>(sum.y) * kLengthUnit / n));
   const double coverage = coverage_of(sum, range, tau_m);
-  grid.coverage.push_back(static_cast<float>(coverage));
+  grid.coverage.push_back(static_cast<float>(std::min(1.0, coverage)));
   grid.weight_m.push_back(
       static_cast<float>(coverage * tau_m * std::min(1.0, range.slice_m / kFullWeightHeight)));
   grid.area_m2.push_back(static_cast<float>(static_cast<double>(sum.area) * kAreaUnit));

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/slice/levels.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/slice/synthetic_cloud.h"
+
+namespace roomcut {
+namespace {
+
+using testing::SyntheticCloud;
+
+LevelRules rules_for(const SyntheticCloud& cloud) {
+  return {cloud.noise(), std::max(0.01, 2 * cloud.noise()), 0.1, 4.0};
+}
+
+std::vector<Level> levels_of(const SyntheticCloud& cloud, std::vector<Level>* rejected = nullptr) {
+  const LevelRules rules = rules_for(cloud);
+  const HeightSurvey survey = survey_heights(cloud.header(), cloud.source(), rules.raster_m, 0.005);
+  std::vector<SurfaceCell> cells = surface_cells(survey.patches, rules.noise_m);
+  measure_drift(cells, rules.raster_m, rules.noise_m);
+  std::vector<Level> levels = find_levels(survey, cells, rules, rejected);
+  add_caps(levels, survey.upright, 0.2);
+  return levels;
+}
+
+std::vector<double> heights(const std::vector<Level>& levels) {
+  std::vector<double> z;
+  for (const Level& level : levels) z.push_back(level.z);
+  return z;
+}
+
+void expect_heights(const std::vector<Level>& levels, const std::vector<double>& expected, double tolerance) {
+  const std::vector<double> found = heights(levels);
+  ASSERT_EQ(found.size(), expected.size()) << ::testing::PrintToString(found);
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], tolerance);
+}
+
+TEST(Levels, FloorAndCeilingAreFoundWithinTwoMillimetres) {
+  for (const double noise : {0.0, 0.003, 0.005}) {
+    SyntheticCloud cloud(noise);
+    cloud.room({0, 0}, {5, 4}, 0.0, 2.5);
+    expect_heights(levels_of(cloud), {0.0, 2.5}, 0.002);
+  }
+}
+
+TEST(Levels, NoiseOfTwoCentimetresMovesThemByLessThanOneCentimetre) {
+  SyntheticCloud cloud(0.02);
+  cloud.room({0, 0}, {5, 4}, 0.0, 2.5);
+  expect_heights(levels_of(cloud), {0.0, 2.5}, 0.005);
+}
+
+TEST(Levels, CeilingsFourCentimetresApartInDifferentRoomsStayApart) {
+  for (const double noise : {0.003, 0.005}) {
+    SyntheticCloud cloud(noise);
+    cloud.room({0, 0}, {5, 4}, 0.0, 2.50);
+    cloud.room({5.1, 0}, {9, 4}, 0.0, 2.54);
+    expect_heights(levels_of(cloud), {0.0, 2.50, 2.54}, 0.003);
+  }
+}
+
+TEST(Levels, AStepOfFiveCentimetresInOneCeilingIsTwoLevels) {
+  SyntheticCloud cloud(0.004);
+  cloud.room({0, 0}, {6, 4}, 0.0, 2.50);
+  cloud.horizontal({6, 0}, {12, 4}, 2.55);
+  expect_heights(levels_of(cloud), {0.0, 2.50, 2.55}, 0.003);
+}
+
+TEST(Levels, ADriftingFloorIsOneLevel) {
+  SyntheticCloud cloud(0.006);
+  // 24 cm from end to end, in waves as a mobile scan drifts: a plain histogram has several peaks.
+  const auto drift = [](const Vec2& p) { return 0.006 * p.x() + 0.03 * std::sin(0.5 * p.x()); };
+  cloud.horizontal({0, 0}, {25, 8}, drift);
+  cloud.horizontal({0, 0}, {25, 8}, [&](const Vec2& p) { return 2.7 + drift(p); });
+  const std::vector<Level> levels = levels_of(cloud);
+  ASSERT_EQ(levels.size(), 2U) << ::testing::PrintToString(heights(levels));
+  EXPECT_GT(levels[0].area_m2, 0.9 * 200);
+  EXPECT_NEAR(levels[1].z - levels[0].z, 2.7, 0.01);
+}
+
+TEST(Levels, DriftOfOneFloorDoesNotJoinCleanCeilings) {
+  SyntheticCloud cloud(0.004);
+  cloud.horizontal({0, 0}, {25, 8}, [](const Vec2& p) { return 0.004 * p.x(); });
+  cloud.horizontal({0, 0}, {12, 8}, 2.50);
+  cloud.horizontal({12.1, 0}, {25, 8}, 2.54);
+  const std::vector<Level> levels = levels_of(cloud);
+  ASSERT_EQ(levels.size(), 3U) << ::testing::PrintToString(heights(levels));
+  EXPECT_NEAR(levels[1].z, 2.50, 0.003);
+  EXPECT_NEAR(levels[2].z, 2.54, 0.003);
+}
+
+TEST(Levels, ATableIsNoLevel) {
+  SyntheticCloud cloud;
+  cloud.room({0, 0}, {6, 5}, 0.0, 2.5);
+  cloud.horizontal({1, 1}, {2.6, 2.2}, 0.74);
+  cloud.horizontal({4, 1}, {5.6, 2.2}, 0.74);
+  cloud.horizontal({1, 3.4}, {2.6, 4.6}, 0.74);
+  std::vector<Level> rejected;
+  expect_heights(levels_of(cloud, &rejected), {0.0, 2.5}, 0.002);
+  ASSERT_EQ(rejected.size(), 1U);
+  EXPECT_NEAR(rejected[0].area_m2, 5.76, 0.3);
+  EXPECT_NEAR(rejected[0].component_m2, 1.92, 0.3);
+}
+
+TEST(Levels, ARoomOfThreeSquareMetresHasFloorAndCeiling) {
+  SyntheticCloud cloud(0.004);
+  cloud.room({0, 0}, {2.0, 1.5}, 0.0, 2.4);
+  expect_heights(levels_of(cloud), {0.0, 2.4}, 0.002);
+}
+
+TEST(Levels, DensityThatFallsOffChangesNoArea) {
+  SyntheticCloud cloud(0.004, 2000);
+  cloud.thin([](const Vec2& p) { return 1 / (1 + p.squaredNorm()); });
+  cloud.room({0, 0}, {5, 4}, 0.0, 2.5);
+  const std::vector<Level> levels = levels_of(cloud);
+  ASSERT_EQ(levels.size(), 2U);
+  EXPECT_NEAR(levels[0].area_m2, 20, 0.6);
+}
+
+TEST(Levels, WallsThatGoOnPastTheLastLevelGetACap) {
+  SyntheticCloud cloud;
+  cloud.horizontal({0, 0}, {5, 4}, 0.0);
+  cloud.wall({0, 0}, {5, 0}, 0.0, 2.6);
+  cloud.wall({5, 0}, {5, 4}, 0.0, 2.6);
+  const std::vector<Level> levels = levels_of(cloud);
+  ASSERT_EQ(levels.size(), 2U);
+  EXPECT_FALSE(levels[0].cap);
+  EXPECT_TRUE(levels[1].cap);
+  EXPECT_NEAR(levels[1].z, 2.6, 0.05);
+}
+
+TEST(Levels, WallsThatEndAtTheCeilingGetNone) {
+  SyntheticCloud cloud(0.02);
+  cloud.room({0, 0}, {5, 4}, 0.0, 2.5);
+  for (const Level& level : levels_of(cloud)) EXPECT_FALSE(level.cap);
+}
+
+}  // namespace
+}  // namespace roomcut

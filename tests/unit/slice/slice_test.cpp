@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/slice/slice.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "common/errors/codes.h"
+#include "tests/unit/slice/synthetic_cloud.h"
+
+namespace roomcut {
+namespace {
+
+using testing::SyntheticCloud;
+
+std::string code_of(const SyntheticCloud& cloud) {
+  try {
+    slice_cloud(cloud.header(), cloud.source(), {});
+  } catch (const StageError& error) {
+    return error.problems().front().code.id;
+  }
+  return "none";
+}
+
+SyntheticCloud two_storeys() {
+  SyntheticCloud cloud;
+  cloud.room({0, 0}, {6, 4}, 0.0, 2.5);
+  cloud.room({6.1, 0}, {9, 4}, 0.0, 2.4);
+  cloud.room({0, 0}, {6, 4}, 2.8, 5.3);
+  return cloud;
+}
+
+TEST(Slice, WallSlicesLieBetweenTheLevels) {
+  const SyntheticCloud cloud = two_storeys();
+  const SliceResult result = slice_cloud(cloud.header(), cloud.source(), {});
+  ASSERT_EQ(result.slices.levels.size(), 5U);
+  ASSERT_EQ(result.slices.wall_slices.size(), 4U);
+  EXPECT_GT(result.slices.wall_slices[0].size(), 600U);  // both rooms below 2.4 m
+  EXPECT_GT(result.slices.wall_slices[3].size(), 450U);  // the upper room
+  EXPECT_EQ(result.slices.wall_slices[2].size(), 0U);    // the slab between the storeys
+  EXPECT_NEAR(result.slices.tau_m, 0.04, 1e-9);
+}
+
+TEST(Slice, TheHistogramHoldsAllHorizontalArea) {
+  const SyntheticCloud cloud = two_storeys();
+  const SliceResult result = slice_cloud(cloud.header(), cloud.source(), {});
+  double area = 0;
+  for (const double bin : result.slices.histogram.area_m2) area += bin;
+  EXPECT_NEAR(area, 2 * (24 + 11.6 + 24), 0.5);
+}
+
+TEST(Slice, ASparseScanGetsLargerCells) {
+  SyntheticCloud cloud(0.005, 60);
+  cloud.room({0, 0}, {6, 4}, 0.0, 2.5);
+  const SliceResult result = slice_cloud(cloud.header(), cloud.source(), {});
+  EXPECT_EQ(result.slices.levels.size(), 2U);
+  EXPECT_GT(result.slices.tau_m, 0.06);
+}
+
+TEST(Slice, ParametersOverrideWhatIsDerived) {
+  const SyntheticCloud cloud = two_storeys();
+  SliceParams params;
+  params.tau_m = 0.07;
+  params.min_component_m2 = 20;
+  const SliceResult result = slice_cloud(cloud.header(), cloud.source(), params);
+  EXPECT_EQ(result.slices.tau_m, 0.07);
+  EXPECT_EQ(result.slices.levels.size(), 4U);  // the ceiling of 11.6 m^2 is none now
+}
+
+TEST(Slice, WallsWithoutFloorAndCeilingAreErrorN01) {
+  SyntheticCloud cloud;
+  cloud.wall({0, 0}, {5, 0}, 0, 2.5);
+  EXPECT_EQ(code_of(cloud), "N01");
+}
+
+TEST(Slice, AFloorAloneIsErrorN01) {
+  SyntheticCloud cloud;
+  cloud.horizontal({0, 0}, {5, 5}, 0.0);
+  EXPECT_EQ(code_of(cloud), "N01");
+}
+
+TEST(Slice, FloorAndCeilingWithoutWallsAreErrorN02) {
+  SyntheticCloud cloud;
+  cloud.horizontal({0, 0}, {5, 5}, 0.0);
+  cloud.horizontal({0, 0}, {5, 5}, 2.5);
+  EXPECT_EQ(code_of(cloud), "N02");
+}
+
+TEST(Slice, AnyNumberOfThreadsGivesTheSameResult) {
+  const SyntheticCloud cloud = two_storeys();
+  std::vector<SliceResult> results;
+  for (const std::size_t threads : {1, 2, 8}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    results.push_back(slice_cloud(cloud.header(), cloud.source(), {}));
+  }
+  for (const SliceResult& result : results) {
+    EXPECT_EQ(result.slices.histogram.area_m2, results[0].slices.histogram.area_m2);
+    ASSERT_EQ(result.slices.levels.size(), results[0].slices.levels.size());
+    for (std::size_t k = 0; k < result.slices.levels.size(); ++k) {
+      EXPECT_EQ(result.slices.levels[k].z, results[0].slices.levels[k].z);
+    }
+    for (std::size_t k = 0; k < result.slices.wall_slices.size(); ++k) {
+      EXPECT_EQ(result.slices.wall_slices[k].x, results[0].slices.wall_slices[k].x);
+      EXPECT_EQ(result.slices.wall_slices[k].weight_m, results[0].slices.wall_slices[k].weight_m);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace roomcut

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/slices/slices_io.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "common/errors/error.h"
+
+namespace roomcut {
+namespace {
+
+class SlicesIo : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() / ("roomcut_slices_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::filesystem::path path() const { return folder_ / "slices.h5"; }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+OccupancyGrid grid(int cells) {
+  OccupancyGrid g;
+  for (int i = 0; i < cells; ++i) {
+    g.ix.push_back(i - 1);
+    g.iy.push_back(-2);
+    g.x.push_back(0.04F * static_cast<float>(i));
+    g.y.push_back(-0.07F);
+    g.coverage.push_back(0.5F);
+    g.weight_m.push_back(0.02F);
+    g.area_m2.push_back(0.01F);
+    g.azimuth.push_back(static_cast<std::uint8_t>(200 + i));
+    g.azimuth_trust.push_back(250);
+  }
+  return g;
+}
+
+Slices example() {
+  Slices slices;
+  slices.frame.origin[0] = 4.5e6;
+  slices.bbox_min = {-1, -2, -0.1};
+  slices.bbox_max = {3, 4, 2.6};
+  slices.noise_m = 0.004;
+  slices.density = 480;
+  slices.tau_m = 0.04;
+  slices.histogram = {-0.105, 0.005, {0, 1.5, 20, 0}};
+  slices.levels = {
+      {0, -0.02, 0.02, 20, 19, false}, {2.4, 2.38, 2.42, 8, 8, false}, {2.6, 2.6, 2.6, 0, 0, true}};
+  slices.wall_slices = {grid(5), grid(0)};
+  return slices;
+}
+
+TEST_F(SlicesIo, WhatIsWrittenIsRead) {
+  const Slices out = example();
+  EXPECT_TRUE(write_slices(path(), out, {}));
+  const Slices in = read_slices(path());
+  EXPECT_EQ(in.frame.origin[0], 4.5e6);
+  EXPECT_EQ(in.bbox_max, out.bbox_max);
+  EXPECT_EQ(in.tau_m, out.tau_m);
+  EXPECT_EQ(in.noise_m, out.noise_m);
+  EXPECT_EQ(in.density, out.density);
+  EXPECT_EQ(in.histogram.area_m2, out.histogram.area_m2);
+  EXPECT_EQ(in.histogram.z0, out.histogram.z0);
+  ASSERT_EQ(in.levels.size(), 3U);
+  EXPECT_EQ(in.levels[1].z, 2.4);
+  EXPECT_EQ(in.levels[1].lo, 2.38);
+  EXPECT_EQ(in.levels[1].hi, 2.42);
+  EXPECT_EQ(in.levels[0].area_m2, 20);
+  EXPECT_EQ(in.levels[0].component_m2, 19);
+  EXPECT_TRUE(in.levels[2].cap);
+  ASSERT_EQ(in.wall_slices.size(), 2U);
+  EXPECT_EQ(in.wall_slices[0].ix, out.wall_slices[0].ix);
+  EXPECT_EQ(in.wall_slices[0].iy, out.wall_slices[0].iy);
+  EXPECT_EQ(in.wall_slices[0].x, out.wall_slices[0].x);
+  EXPECT_EQ(in.wall_slices[0].weight_m, out.wall_slices[0].weight_m);
+  EXPECT_EQ(in.wall_slices[0].area_m2, out.wall_slices[0].area_m2);
+  EXPECT_EQ(in.wall_slices[0].azimuth, out.wall_slices[0].azimuth);
+  EXPECT_EQ(in.wall_slices[0].azimuth_trust, out.wall_slices[0].azimuth_trust);
+  EXPECT_EQ(in.wall_slices[1].size(), 0U);
+}
+
+TEST_F(SlicesIo, WithoutGridsOnlyTheLevelsAreRead) {
+  write_slices(path(), example(), {});
+  const Slices in = read_slices(path(), false);
+  EXPECT_EQ(in.levels.size(), 3U);
+  ASSERT_EQ(in.wall_slices.size(), 2U);
+  EXPECT_EQ(in.wall_slices[0].size(), 0U);
+}
+
+TEST_F(SlicesIo, EqualContentIsNoNewPayload) {
+  EXPECT_TRUE(write_slices(path(), example(), {}));
+  EXPECT_FALSE(write_slices(path(), example(), {}));
+  Slices other = example();
+  other.levels[1].z += 1e-6;
+  EXPECT_TRUE(write_slices(path(), other, {}));
+}
+
+TEST_F(SlicesIo, LevelsOutOfOrderAreDamage) {
+  Slices wrong = example();
+  std::swap(wrong.levels[0], wrong.levels[1]);
+  write_slices(path(), wrong, {});
+  try {
+    read_slices(path());
+    FAIL() << "no error";
+  } catch (const StageError& error) {
+    EXPECT_STREQ(error.problems().front().code.id, "A02");
+    EXPECT_NE(std::string(error.what()).find("levels/z"), std::string::npos);
+  }
+}
+
+TEST_F(SlicesIo, AMissingFileIsNamed) {
+  try {
+    read_slices(path());
+    FAIL() << "no error";
+  } catch (const StageError& error) {
+    EXPECT_STREQ(error.problems().front().code.id, "A01");
+  }
+}
+
+}  // namespace
+}  // namespace roomcut
