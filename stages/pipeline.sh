@@ -192,9 +192,6 @@ show_status() {
 }
 
 edit_lines() {
-  if [ -f edits/wall_lines.geojson ]; then
-    fail "edits/wall_lines.geojson: an edit is there already" "go on with it, or make drop-edit first (it is moved aside, not deleted)"
-  fi
   cp 40_accept_lines/wall_lines.geojson edits/.wall_lines.geojson.new
   mv -f edits/.wall_lines.geojson.new edits/wall_lines.geojson
   echo "edit this file, one line per wall: $WORK/edits/wall_lines.geojson"
@@ -248,6 +245,8 @@ case $command in
     refresh
     rerun "$1" ;;
   edit-lines)
+    [ ! -f edits/wall_lines.geojson ] || fail "$WORK/edits/wall_lines.geojson: an edit is there already" \
+      "go on with it, or make drop-edit first (it is moved aside, not deleted)"
     refresh
     rules accept_lines
     edit_lines ;;

@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <fstream>
 #include <system_error>
 
 #include "common/errors/codes.h"
@@ -73,11 +74,24 @@ pid_t writer_of(const std::string& file, const std::string& name) {
   return error == std::errc() && stop == end ? pid : 0;
 }
 
+/// Also for a zombie, which no longer writes: in a container nobody may ever collect it.
+bool is_dead(pid_t pid) {
+  if (::kill(pid, 0) != 0) {
+    return errno == ESRCH;
+  }
+  std::ifstream status("/proc/" + std::to_string(pid) + "/stat");
+  std::string text;
+  std::getline(status, text);
+  const std::size_t name_end = text.rfind(") ");
+  return name_end != std::string::npos && name_end + 2 < text.size() &&
+         (text[name_end + 2] == 'Z' || text[name_end + 2] == 'X');
+}
+
 void remove_left_overs(const fs::path& folder, const std::string& name) {
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {
     const pid_t pid = writer_of(entry.path().filename().string(), name);
-    if (pid > 0 && pid != ::getpid() && ::kill(pid, 0) != 0 && errno == ESRCH) {
+    if (pid > 0 && pid != ::getpid() && is_dead(pid)) {
       fs::remove(entry.path(), ignored);
     }
   }

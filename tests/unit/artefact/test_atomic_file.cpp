@@ -68,6 +68,21 @@ TEST(AtomicFile, of_a_killed_process_leaves_nothing_under_the_final_name_and_is_
   EXPECT_TRUE(std::filesystem::exists(folder / "a.txt"));
 }
 
+TEST(AtomicFile, of_a_killed_process_that_nobody_collected_is_cleared_too) {
+  const TemporaryFolder folder;
+  const pid_t pid = ::fork();
+  if (pid == 0) {
+    const AtomicFile file(folder / "a.txt");
+    ::raise(SIGKILL);
+  }
+  siginfo_t info{};
+  ::waitid(P_PID, static_cast<id_t>(pid), &info, WEXITED | WNOWAIT);
+  ASSERT_EQ(files_in(folder.path()), 1U);
+  AtomicFile(folder / "a.txt").commit();
+  EXPECT_EQ(files_in(folder.path()), 1U);
+  ::waitpid(pid, nullptr, 0);
+}
+
 TEST(AtomicFile, of_a_living_process_is_left_alone_by_others) {
   const TemporaryFolder folder;
   AtomicFile mine(folder / "a.txt");

@@ -1,0 +1,207 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# usage: reruns.sh SOURCE BUILD [JOBS]: what runs again after which change; every row of the table of DESIGN in a small building.
+SOURCE=$(realpath "$1")
+BUILD=$(realpath "$2")
+jobs=${3:+-j$3}
+. "$(dirname "$0")/lib.sh"
+
+line_edit() { # moves an end of the first line by 3 cm; keeps everything else
+  python3 - "$1" <<'P'
+import json, sys
+path = sys.argv[1]
+value = json.load(open(path))
+value["features"][0]["geometry"]["coordinates"][0][0] += 0.03
+json.dump(value, open(path, "w"))
+P
+}
+reformat() {
+  python3 - "$1" <<'P'
+import json, sys
+path = sys.argv[1]
+value = json.load(open(path))
+value["features"].reverse()
+json.dump(value, open(path, "w"), indent=7)
+P
+}
+edit=$work/edits/wall_lines.geojson
+old_time() { touch -d '2001-01-01' "$1"; }
+
+printf 'graphcut:\n  mu_m: 0.3\nreport:\n' > "$config"
+make_scan 1 "$scan" || exit 1
+mark
+check "the first run runs every stage" mk run
+check "… each once" ran_exactly "$(since ingest)"
+check "… and leaves a model" test -s "$work/model.ply" -a -s "$work/model.obj" -a -s "$work/summary.json" -a -s "$work/report.html"
+check "… and nothing half-written" no_left_overs
+digests "$work" > "$place/first"
+
+mark
+mk run
+check "a second run has nothing to do" ran_exactly ""
+best=9999
+for _ in 1 2 3 4 5; do
+  begin=$(date +%s%N)
+  mk run
+  took=$((($(date +%s%N) - begin) / 1000000))
+  [ $took -lt $best ] && best=$took
+done
+echo "        a run with nothing to do takes $best ms"
+check "… and says so within 250 ms" test "$best" -le 250
+
+mark
+printf '# a comment\nreport: {}\n\ngraphcut: {mu_m: 3e-1}\n' > "$config"
+check "comment, order and spelling in pipeline.yaml" mk run
+check "… run nothing" ran_exactly ""
+
+mark
+printf 'graphcut:\n  mu_m: 0.3000001\n' > "$config"
+check "graphcut.mu_m changed" mk run
+check "… runs graphcut first, nothing before it" starts_with graphcut
+ran | tr ' ' '\n' | grep -q final_graphcut && ok "… and the second pass's too" || not_ok "… and the second pass's too" "$(ran)"
+printf 'graphcut:\n  mu_m: 0.3\n' > "$config"
+mk run
+
+mark
+printf 'accept_lines:\nslice:\n  %s\ngraphcut:\n  mu_m: 0.3\n' "$(cat "$place/equal_param" 2> /dev/null || echo '{}')" > "$config"
+mk run
+check "an empty block more runs nothing" ran_exactly ""
+
+mark
+check "rerun of a stage with the same outcome" mk rerun-slice
+check "… runs that stage only" ran_exactly "slice"
+mark
+mk run
+check "… and nothing later" ran_exactly ""
+
+mark
+check "edit-lines" mk edit-lines
+check "… runs nothing" ran_exactly ""
+check "… and makes the file" test -s "$edit"
+mk edit-lines && not_ok "a second edit-lines is refused" || ok "a second edit-lines is refused"
+mark
+check "an edit that changes nothing" mk run
+check "… runs accept_lines only" ran_exactly "accept_lines"
+cp "$work/40_accept_lines/wall_lines.geojson" "$place/accepted"
+
+mark
+line_edit "$edit"
+old_time "$edit"
+check "an edit, with an old time stamp" mk run
+check "… runs accept_lines first, nothing before it" starts_with accept_lines
+ran | tr ' ' '\n' | grep -qx partition && ok "… and what follows" || not_ok "… and what follows" "$(ran)"
+mark
+mk diff-lines
+grep -q moved "$output" && ok "diff-lines says what moved" || not_ok "diff-lines says what moved" "$(cat "$output")"
+
+mark
+line_edit "$edit"
+old_time "$edit"
+mk run
+check "edited again: accept_lines first" starts_with accept_lines
+
+mark
+reformat "$edit"
+mk run
+check "reformatted edit: accept_lines only" ran_exactly "accept_lines"
+
+mark
+touch "$edit"
+mk run
+check "touched edit: nothing" ran_exactly ""
+
+mark
+cp "$edit" "$place/good_edit"
+digests "$work" > "$place/before"
+printf '{"type": "FeatureCollection", "features": [{"type": "Feature", "geometry": {"type": "LineString", "coordinates": [[1,1],[1,1]]}}, {"type": "Feature", "geometry": null}]}' > "$edit"
+mk run && not_ok "a wrong edit stops the run" || ok "a wrong edit stops the run"
+grep -q 'Error 3' "$output" && ok "… with exit code 3" || not_ok "… with exit code 3" "$(cat "$output")"
+if [ "$(grep -c 'error\[L' "$output")" -eq 2 ] && grep -q 'features\[0\]' "$output" && grep -q 'features\[1\]' "$output" && grep -q hint: "$output"; then
+  ok "… naming every problem, feature and remedy"
+else
+  not_ok "… naming every problem, feature and remedy" "$(cat "$output")"
+fi
+digests "$work" > "$place/after"
+check "… and nothing of before is lost" cmp "$place/before" "$place/after"
+cp "$place/good_edit" "$edit"
+mark
+mk run
+check "the edit put right: accept_lines runs, nothing else" ran_exactly "accept_lines"
+
+mark
+printf 'detect_lines:\n  %s\ngraphcut:\n  mu_m: 0.3\n' "${DETECT_CHANGE:-min_length_m: 0.9}" > "$config"
+check "detection changed under an edit" mk run
+check "… reruns detection" starts_with detect_lines
+check "… the edit stays" cmp "$edit" "$place/good_edit"
+printf 'graphcut:\n  mu_m: 0.3\n' > "$config"
+mk run
+
+mark
+check "drop-edit" mk drop-edit
+check "… moves the edit aside" test -s "$work/edits/old/wall_lines.1.geojson" -a ! -e "$edit"
+check "the edit removed" mk run
+check "… runs accept_lines first" starts_with accept_lines
+digests "$work" > "$place/now"
+check "… and gives the bytes of before the edit" cmp "$place/first" "$place/now"
+
+mark
+touch "$scan"
+mk run
+check "the scan touched: nothing" ran_exactly ""
+cp "$scan" "$place/copy" && mv "$place/copy" "$scan"
+mk run
+check "the scan copied over itself: nothing" ran_exactly ""
+
+for file in 20_slice/slices.h5 50_partition/cells.h5 30_detect_lines/hough.h5 90_final/weights.h5 model.obj; do
+  mark
+  rm "$work/$file"
+  mk run
+  case $file in
+    20*) stage=slice ;; 30*) stage=detect_lines ;; 50*) stage=partition ;; 90*) stage=final_weigh_faces ;; *) stage=extract ;;
+  esac
+  check "$file deleted: remade, nothing after it" ran_exactly "$stage"
+  check "… and it is there" test -s "$work/$file"
+done
+mark
+rm "$work/20_slice/slices.h5" "$work/70_graphcut/labels.h5"
+mk run
+check "two files deleted: both remade, nothing else" ran_exactly "slice graphcut"
+digests "$work" > "$place/now"
+check "… with the same bytes" cmp "$place/first" "$place/now"
+
+check "verify finds all in order" mk verify
+size=$(stat -c %s "$work/50_partition/cells.h5")
+head -c 200 /dev/zero | dd of="$work/50_partition/cells.h5" bs=1 seek=$((size - size / 10 - 200)) conv=notrunc 2> /dev/null
+mk verify && not_ok "verify finds a changed byte" || ok "verify finds a changed byte"
+rm "$work/50_partition/cells.h5"
+mk run
+
+mark
+mk status
+check "status changes nothing" ran_exactly ""
+[ "$(grep -c 'up to date$' "$output")" -eq 15 ] && ok "status: all up to date" || not_ok "status: all up to date" "$(cat "$output")"
+printf 'raycast:\n  nonsense: 1\nraycasts:\n' > "$config"
+mk run && not_ok "wrong parameters stop the run" || ok "wrong parameters stop the run"
+if [ "$(grep -c 'error\[U03\]' "$output")" -eq 2 ] && grep -q "pipeline.yaml:2: raycast.nonsense" "$output"; then
+  ok "… naming each once, with its line"
+else
+  not_ok "… naming each once, with its line" "$(cat "$output")"
+fi
+printf 'graphcut:\n  mu_m: 0.4\n' > "$config"
+mk status
+grep -q '^  graphcut  *to run' "$output" && ok "status names the stage that will run" || not_ok "status names the stage that will run" "$(cat "$output")"
+printf 'graphcut:\n  mu_m: 0.3\n' > "$config"
+mk run
+
+mark
+mk clean-graphcut
+check "clean-graphcut deletes its file" test ! -e "$work/70_graphcut/labels.h5"
+mk run
+digests "$work" > "$place/now"
+check "… and the next run brings back the same" cmp "$place/first" "$place/now"
+
+mark
+make_scan 2 "$scan"
+check "another scan of the same name" mk run
+check "… runs everything" ran_exactly "$(since ingest)"
+finish
