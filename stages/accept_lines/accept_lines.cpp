@@ -17,8 +17,8 @@ bool near(const WallLine& line, const WallLine& other) {
   if (angle_between(base.theta, other.line().theta) > kNear_rad) {
     return false;
   }
-  const auto [low, high] = std::minmax(base.along(other.a), base.along(other.b));
-  const auto [first, last] = std::minmax(base.along(line.a), base.along(line.b));
+  const auto [low, high] = std::minmax({base.along(other.a), base.along(other.b)});
+  const auto [first, last] = std::minmax({base.along(line.a), base.along(line.b)});
   const double from = std::max(low, first);
   const double to = std::min(high, last);
   const Vec2 middle = base.at(0.5 * (from + to));  // of the common stretch
