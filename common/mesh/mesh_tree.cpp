@@ -12,6 +12,7 @@ namespace roomcut {
 namespace {
 
 constexpr std::int32_t kLeafSize = 4;
+constexpr double kRounding = 1e-10;  // of coordinates up to a kilometre, generously [m]
 constexpr std::size_t kStack = 128;  // deeper than any tree split in halves can be
 
 Vec3 cross(const Vec3& u, const Vec3& v) {
@@ -122,11 +123,15 @@ void MeshTree::build(const TriangleMesh& mesh, std::vector<std::int32_t> subset)
 }
 
 template <class Accept>
-MeshTree::Hit MeshTree::search(const Vec3& p, Hit best, const Accept& accept) const {
+MeshTree::Hit MeshTree::search(const Vec3& p, Start start, const Accept& accept) const {
   if (nodes_.empty()) {
     return {};
   }
-  double best2 = best.distance * best.distance;
+  auto [best2, best] = start;
+  // Boxes are passed over only when they are farther by more than rounding can make up: the answer is then
+  // the same in whatever order the triangles are met.
+  const auto reach = [](double d2) { return d2 + kRounding * (2 * std::sqrt(d2) + kRounding); };
+  double reach2 = reach(best2);
   struct Entry {
     double distance2;
     std::int32_t node;
@@ -136,7 +141,7 @@ MeshTree::Hit MeshTree::search(const Vec3& p, Hit best, const Accept& accept) co
   stack[depth++] = {box_distance2(p, nodes_[0].lo, nodes_[0].hi), 0};
   while (depth > 0) {
     const Entry entry = stack[--depth];
-    if (entry.distance2 > best2) {
+    if (entry.distance2 > reach2) {
       continue;
     }
     const Node& node = nodes_[static_cast<std::size_t>(entry.node)];
@@ -147,10 +152,10 @@ MeshTree::Hit MeshTree::search(const Vec3& p, Hit best, const Accept& accept) co
       if (far.distance2 < near.distance2) {
         std::swap(near, far);
       }
-      if (far.distance2 <= best2) {
+      if (far.distance2 <= reach2) {
         stack[depth++] = far;
       }
-      if (near.distance2 <= best2) {
+      if (near.distance2 <= reach2) {
         stack[depth++] = near;
       }
       continue;
@@ -162,29 +167,31 @@ MeshTree::Hit MeshTree::search(const Vec3& p, Hit best, const Accept& accept) co
       }
       const double distance2 = squared_distance(p, item.a, item.b, item.c);
       // Of equally near triangles the lowest wins, whatever the order of the search.
-      if (distance2 < best2 || (distance2 == best2 && (best.triangle < 0 || item.triangle < best.triangle))) {
+      if (distance2 < best2 || (distance2 == best2 && (best < 0 || item.triangle < best))) {
         best2 = distance2;
-        best = {std::sqrt(distance2), item.triangle};
+        best = item.triangle;
+        reach2 = reach(best2);
       }
     }
   }
-  return best.triangle < 0 ? Hit{} : best;
+  return best < 0 ? Hit{} : Hit{std::sqrt(best2), best};
 }
 
 MeshTree::Hit MeshTree::nearest(const Vec3& p, double limit, std::int32_t hint) const {
-  Hit start{limit, -1};
+  Start start{limit * limit, -1};
   if (hint >= 0 && item_of_[static_cast<std::size_t>(hint)] >= 0) {
     const Item& item = items_[static_cast<std::size_t>(item_of_[static_cast<std::size_t>(hint)])];
-    const double distance = std::sqrt(squared_distance(p, item.a, item.b, item.c));
-    // A hair more than the hint's distance: the search itself then finds the hint or something better.
-    start.distance = std::min(limit, distance * (1 + 1e-12) + 1e-300);
+    const double distance2 = squared_distance(p, item.a, item.b, item.c);
+    if (distance2 < start.distance2) {
+      start = {distance2, hint};
+    }
   }
   return search(p, start, [](std::int32_t) { return true; });
 }
 
 MeshTree::Hit MeshTree::nearest_facing(const Vec3& p, double limit, const Vec3& direction,
                                        double least_cosine) const {
-  return search(p, {limit, -1},
+  return search(p, {limit * limit, -1},
                 [&](std::int32_t triangle) { return unit_normal(triangle).dot(direction) >= least_cosine; });
 }
 

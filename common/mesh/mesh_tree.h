@@ -47,8 +47,12 @@ class MeshTree {
     std::int32_t triangle;
   };
   void build(const TriangleMesh& mesh, std::vector<std::int32_t> subset);
+  struct Start {
+    double distance2;
+    std::int32_t triangle;
+  };
   template <class Accept>
-  Hit search(const Vec3& p, Hit best, const Accept& accept) const;
+  Hit search(const Vec3& p, Start start, const Accept& accept) const;
 
   std::vector<Node> nodes_;
   std::vector<Item> items_;

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/evaluate/evaluate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/errors/codes.h"
+
+namespace roomcut {
+
+namespace {
+
+constexpr double kAutoSamples = 250000;
+constexpr std::uint64_t kModelSeed = 1, kTruthSeed = 2, kColumnSeed = 3;
+
+double auto_spacing(double area_m2) {
+  return std::clamp(std::sqrt(area_m2 / kAutoSamples), 0.002, 0.5);
+}
+
+void require_closed_truth(const MeshCheck& check) {
+  if (!check.closed() || !check.oriented()) {
+    throw StageError(errors::kMeshNotClosed, "truth",
+                     "the mesh is not closed and evenly oriented: " + describe_faults(check),
+                     "close it first: rooms, volumes and thin walls need an inside");
+  }
+}
+
+void score_spaces(const TriangleMesh& model, const TriangleMesh& truth,
+                  const std::vector<DescribedRoom>& described, const EvaluateParams& params,
+                  const SurfaceDistances& truth_samples, const MeshTree& truth_tree, Scores& scores) {
+  const Columns truth_columns(truth);
+  const Columns model_columns(model);
+  const std::vector<TruthRoom> rooms = locate_rooms(described, truth_columns);
+  const RoomFinder finder(rooms, truth_columns);
+  const Bounds3 a = bounds(model);
+  const Bounds3 b = bounds(truth);
+  const Vec2 lo = a.lo.cwiseMin(b.lo).head<2>();
+  const Vec2 hi = a.hi.cwiseMax(b.hi).head<2>();
+  scores.column_spacing_m = params.column_spacing_m.value_or(auto_spacing((hi - lo).x() * (hi - lo).y()));
+  scores.volume = compare_volumes(truth_columns, model_columns, rooms, finder, lo, hi,
+                                  scores.column_spacing_m, kColumnSeed);
+  std::vector<std::uint8_t> found;
+  for (std::size_t i = 0; i < rooms.size(); ++i) {
+    RoomScore room{rooms[i], scores.volume->room_m3[i], scores.volume->room_empty_m3[i], false};
+    room.found = room.empty_m3 > params.found_share * room.volume_m3;
+    found.push_back(room.found ? 1 : 0);
+    scores.rooms.push_back(std::move(room));
+  }
+  scores.thin = score_thin_walls(truth_samples, truth_tree, finder, model_columns, params.thin_wall_m);
+  scores.merged = merged_rooms(scores.thin, found);
+}
+
+}  // namespace
+
+std::size_t Scores::found() const {
+  return static_cast<std::size_t>(
+      std::count_if(rooms.begin(), rooms.end(), [](const RoomScore& room) { return room.found; }));
+}
+
+std::size_t Scores::in_merged_groups() const {
+  std::size_t count = 0;
+  for (const auto& group : merged) {
+    count += group.size();
+  }
+  return count;
+}
+
+TriangleMesh prepared(const TriangleMesh& mesh, const Vec3& origin) {
+  TriangleMesh out = weld_vertices(mesh);
+  for (Vec3& p : out.vertices) {
+    p -= origin;
+  }
+  if (volume(out) < 0) {
+    flip_orientation(out);
+  }
+  return out;
+}
+
+Scores evaluate(const TriangleMesh& model, const TriangleMesh& truth, const std::vector<DescribedRoom>& rooms,
+                const EvaluateParams& params) {
+  Scores scores;
+  scores.truth_check = check_mesh(truth);
+  require_closed_truth(scores.truth_check);
+  scores.model_check = check_mesh(model);
+  scores.diagonal_m = bounds(truth).diagonal();
+  scores.sample_spacing_m = params.sample_spacing_m.value_or(auto_spacing(scores.truth_check.area_m2));
+  const MeasuredSurface model_surface(model);
+  const MeasuredSurface truth_surface(truth);
+  const auto from_model = measure(model, model_surface, truth_surface, scores.sample_spacing_m, kModelSeed);
+  const auto from_truth = measure(truth, truth_surface, model_surface, scores.sample_spacing_m, kTruthSeed);
+  scores.model_samples = from_model.samples.size();
+  scores.truth_samples = from_truth.samples.size();
+  scores.model_to_truth = from_model.deviation;
+  scores.truth_to_model = from_truth.deviation;
+  for (const double buffer : kBuffers) {
+    scores.isprs.push_back({buffer, isprs_score(from_truth, from_model, SlopeClass::kWall, buffer),
+                            isprs_score(from_truth, from_model, SlopeClass::kHorizontal, buffer)});
+  }
+  scores.walls_matched = matched_wall_share(from_truth);
+  if (scores.model_check.closed() && scores.model_check.oriented()) {
+    score_spaces(model, truth, rooms, params, from_truth, truth_surface.all(), scores);
+  }
+  return scores;
+}
+
+}  // namespace roomcut

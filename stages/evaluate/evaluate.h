@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/mesh/mesh_check.h"
+#include "stages/evaluate/surface_scores.h"
+#include "stages/evaluate/thin_walls.h"
+#include "stages/evaluate/truth_rooms.h"
+#include "stages/evaluate/volume_scores.h"
+
+namespace roomcut {
+
+struct EvaluateParams {
+  std::optional<double> sample_spacing_m, column_spacing_m;
+  double thin_wall_m = 0.40;
+  double found_share = 0.5;
+  double colour_range_m = 0.05;
+};
+
+inline constexpr std::array<double, 4> kBuffers = {0.01, 0.02, 0.05, 0.10};  ///< of the ISPRS scores [m]
+
+struct RoomScore {
+  TruthRoom room;
+  double volume_m3 = 0, empty_m3 = 0;
+  bool found = false;
+};
+
+/// How good a model is. What needs volumes is empty for a model that is not closed.
+struct Scores {
+  MeshCheck model_check, truth_check;
+  double diagonal_m = 0;                              ///< of the truth's bounding box
+  double sample_spacing_m = 0, column_spacing_m = 0;  ///< as used
+  std::size_t model_samples = 0, truth_samples = 0;
+  Deviation model_to_truth, truth_to_model;
+  struct Isprs {
+    double buffer_m;
+    IsprsScore walls, horizontals;
+  };
+  std::vector<Isprs> isprs;
+  std::optional<double>
+      walls_matched;  ///< share of the truth's wall area within 1 degree and 2 cm of a model wall
+  std::optional<VolumeScores> volume;
+  std::vector<RoomScore> rooms;
+  std::vector<std::vector<std::int32_t>> merged;  ///< groups of rooms
+  ThinWallScores thin;
+
+  std::size_t found() const;
+  std::size_t in_merged_groups() const;
+};
+
+/// Prepares a mesh as it came from a file: equal vertices welded, moved by -`origin`, normals out of the
+/// enclosed space.
+TriangleMesh prepared(const TriangleMesh& mesh, const Vec3& origin);
+
+/// Scores `model` against `truth`, both prepared() with the same origin, which lies near them; `rooms` in the
+/// same frame. Throws StageError(kMeshNotClosed) when the truth is not a closed, oriented mesh. Parallel; the
+/// same result for any number of threads.
+Scores evaluate(const TriangleMesh& model, const TriangleMesh& truth, const std::vector<DescribedRoom>& rooms,
+                const EvaluateParams& params);
+
+}  // namespace roomcut

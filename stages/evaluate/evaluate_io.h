@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/artefact/json.h"
+#include "stages/evaluate/distance_colours.h"
+#include "stages/evaluate/evaluate.h"
+
+namespace roomcut {
+
+/// The `rooms` of a truth.json, moved by -`origin`: name, floor, ceiling and either `polygon` ([[x, y], …])
+/// or a point in it (`center`). Other members are ignored. Throws StageError(kMeshFormat) for what is not
+/// that.
+std::vector<DescribedRoom> read_described_rooms(const std::filesystem::path& path, const Vec3& origin);
+
+/// The members of scores.json (schemas/scores.md).
+Json scores_json(const Scores& scores);
+
+/// What is printed: one compact table.
+std::string scores_table(const Scores& scores);
+
+/// distance.ply: vertices coloured from 0 (dark) to `range_m` and beyond (bright), and the distance itself.
+void write_distance_ply(const std::filesystem::path& path, const DistanceMesh& mesh, const Vec3& origin,
+                        double range_m);
+/// distance.png: the same seen from above at an angle, looking into the rooms.
+void write_distance_png(const std::filesystem::path& path, const DistanceMesh& mesh, double range_m);
+
+}  // namespace roomcut

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <iostream>
+
+#include "common/cli/run_stage.h"
+#include "common/mesh/mesh_io.h"
+#include "stages/evaluate/evaluate.h"
+#include "stages/evaluate/evaluate_io.h"
+#include "stages/evaluate/params.h"
+
+namespace {
+
+using namespace roomcut;
+
+StageInfo info() {
+  StageInfo stage;
+  stage.name = "evaluate";
+  stage.revision = 1;
+  stage.summary = "Scores a model against a truth mesh";
+  stage.inputs = {{"model", "model.ply", "Mesh to judge: PLY, OFF or OBJ"},
+                  {"truth", "", "Closed mesh of the rooms' empty space: OFF, PLY or OBJ"},
+                  {"truth-json", "truth.json", "Rooms of the truth; without it every body is a room", true}};
+  stage.outputs = {{"scores", "evaluate/scores.json", "All scores"},
+                   {"coloured", "evaluate/distance.ply", "The model coloured by its distance to the truth"},
+                   {"picture", "evaluate/distance.png", "The same as a picture"}};
+  return stage;
+}
+
+void body(StageRun& run, const EvaluateParams& params) {
+  const TriangleMesh truth_file = read_mesh(run.input("truth"));
+  const TriangleMesh model_file = read_mesh(run.input("model"));
+  const Bounds3 box = bounds(truth_file);
+  const Vec3 origin = 0.5 * (box.lo + box.hi);  // sums and products stay small far from the origin
+  std::vector<DescribedRoom> rooms;
+  if (run.has_input("truth-json")) {
+    rooms = read_described_rooms(run.input("truth-json"), origin);
+  }
+  const TriangleMesh truth = prepared(truth_file, origin);
+  const TriangleMesh model = prepared(model_file, origin);
+  const Scores scores = evaluate(model, truth, rooms, params);
+  const DistanceMesh coloured = measure_for_display(model, MeshTree(truth));
+  write_distance_ply(run.output("coloured"), coloured, origin, params.colour_range_m);
+  write_distance_png(run.output("picture"), coloured, params.colour_range_m);
+  write_json_artefact(run.output("scores"), artefacts::kScores, run.provenance(), Frame{},
+                      scores_json(scores));
+  run.chose("sample_spacing_m", scores.sample_spacing_m, "about 250,000 samples of the truth");
+  if (!run.quiet()) {
+    std::cout << scores_table(scores);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  EvaluateParams params;
+  return run_stage(argc, argv, info(), evaluate_parameters(params),
+                   [&](StageRun& run) { body(run, params); });
+}

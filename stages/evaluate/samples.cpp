@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/evaluate/samples.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/random/counter_random.h"
+
+namespace roomcut {
+
+namespace {
+
+void sample_inside(const TriangleMesh& mesh, std::size_t t, double spacing_m, std::uint64_t seed,
+                   std::vector<SurfaceSample>& out) {
+  const double area = triangle_area(mesh, t);
+  const auto n = static_cast<int>(std::clamp(std::ceil(std::sqrt(area) / spacing_m), 1.0, 10000.0));
+  const Vec3& a = mesh.corner(t, 0);
+  const Vec3 u = (mesh.corner(t, 1) - a) / n;
+  const Vec3 v = (mesh.corner(t, 2) - a) / n;
+  std::uint64_t counter = 0;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; i + j < n; ++j) {
+      for (const bool upper : {false, true}) {  // the two halves of a parallelogram
+        if (upper && i + j + 2 > n) {
+          continue;
+        }
+        double r = random_unit(seed, t, counter);
+        double s = random_unit(seed, t, counter + 1);
+        counter += 2;
+        if ((r + s > 1) != upper) {
+          r = 1 - r;
+          s = 1 - s;
+        }
+        out.push_back({a + (i + r) * u + (j + s) * v, area / n / n, static_cast<std::int32_t>(t)});
+      }
+    }
+  }
+}
+
+void sample_edges(const TriangleMesh& mesh, std::size_t t, double spacing_m,
+                  std::vector<SurfaceSample>& out) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (mesh.triangles[t][c] > mesh.triangles[t][(c + 1) % 3]) {
+      continue;  // its other triangle does it
+    }
+    const Vec3& a = mesh.corner(t, static_cast<int>(c));
+    const Vec3& b = mesh.corner(t, static_cast<int>((c + 1) % 3));
+    const auto steps = static_cast<int>(std::clamp(std::ceil((b - a).norm() / spacing_m), 1.0, 1e6));
+    for (int i = 0; i <= steps; ++i) {
+      const double share = static_cast<double>(i) / steps;
+      out.push_back({(1 - share) * a + share * b, 0, static_cast<std::int32_t>(t)});
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<SurfaceSample> sample_surface(const TriangleMesh& mesh, double spacing_m, std::uint64_t seed) {
+  std::vector<SurfaceSample> out;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    sample_inside(mesh, t, spacing_m, seed, out);
+    sample_edges(mesh, t, spacing_m, out);
+  }
+  return out;
+}
+
+}  // namespace roomcut

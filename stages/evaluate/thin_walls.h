@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "stages/evaluate/surface_scores.h"
+#include "stages/evaluate/truth_rooms.h"
+
+namespace roomcut {
+
+/// Thin structure of the truth and what the model made of it. A *thin place* is a place on the truth's
+/// surface behind which, straight through the wall or slab, another surface follows within `thickest_m` that
+/// looks away (the other face of the same wall). It is kept when the model is solid midway between the two
+/// faces.
+struct ThinWallScores {
+  double wall_m2 = 0, wall_kept_m2 = 0;  ///< of walls; both faces count
+  double slab_m2 = 0, slab_kept_m2 = 0;  ///< of slabs
+  /// Pairs of rooms with at least 0.5 m^2 of thin places between them.
+  struct Pair {
+    std::int32_t a, b;  ///< rooms, a < b
+    double area_m2 = 0, missing_m2 = 0;
+  };
+  std::vector<Pair> pairs;  ///< sorted by (a, b)
+};
+
+ThinWallScores score_thin_walls(const SurfaceDistances& truth_samples, const MeshTree& truth_tree,
+                                const RoomFinder& finder, const Columns& model, double thickest_m);
+
+/// Groups of rooms that the model has joined: more than half of the wall or slab between two of them is
+/// missing, and both are found. Each group sorted, at least two rooms; sorted by first room.
+std::vector<std::vector<std::int32_t>> merged_rooms(const ThinWallScores& thin,
+                                                    const std::vector<std::uint8_t>& found);
+
+}  // namespace roomcut

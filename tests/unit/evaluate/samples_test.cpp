@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/evaluate/samples.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "common/mesh/mesh_tree.h"
+#include "tests/unit/mesh/shapes.h"
+
+namespace roomcut {
+namespace {
+
+using test::box;
+
+TEST(Samples, LieOnTheirTrianglesAndCarryTheWholeArea) {
+  const TriangleMesh mesh = box({0, 0, 0}, {3, 2, 1});
+  double area = 0;
+  for (const SurfaceSample& s : sample_surface(mesh, 0.1, 1)) {
+    const auto t = static_cast<std::size_t>(s.triangle);
+    EXPECT_LT(squared_distance(s.point, mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)), 1e-28);
+    area += s.area_m2;
+  }
+  EXPECT_NEAR(area, 22, 1e-9);
+}
+
+TEST(Samples, NoPlaceOfTheSurfaceIsFarFromASample) {
+  TriangleMesh mesh;  // long and thin
+  mesh.vertices = {{0, 0, 0}, {10, 0, 0}, {10, 0.02, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  const auto samples = sample_surface(mesh, 0.1, 1);
+  for (int i = 0; i <= 100; ++i) {
+    double nearest = 1e9;
+    for (const SurfaceSample& s : samples)
+      nearest = std::min(nearest, (s.point - Vec3(0.1 * i, 0, 0)).norm());
+    EXPECT_LT(nearest, 0.1);
+  }
+}
+
+TEST(Samples, DependOnTheSeedAloneAndCornersAreAmongThem) {
+  const TriangleMesh mesh = box({0, 0, 0}, {1, 1, 1});
+  const auto a = sample_surface(mesh, 0.2, 1);
+  const auto b = sample_surface(mesh, 0.2, 1);
+  const auto c = sample_surface(mesh, 0.2, 2);
+  ASSERT_EQ(a.size(), b.size());
+  bool differs = false;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].point, b[i].point);
+    differs = differs || a[i].point != c[i].point;
+  }
+  EXPECT_TRUE(differs);
+  for (const Vec3& corner : mesh.vertices) {
+    EXPECT_TRUE(std::any_of(a.begin(), a.end(), [&](const SurfaceSample& s) { return s.point == corner; }));
+  }
+}
+
+}  // namespace
+}  // namespace roomcut
