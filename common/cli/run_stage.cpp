@@ -28,6 +28,7 @@ struct CommandLine {
   bool quiet = false;
   bool verbose = false;
   bool dump = false;
+  bool dump_yaml = false;
   std::map<std::string, std::string> files;
 };
 
@@ -54,6 +55,7 @@ void declare_options(CLI::App& app, const StageInfo& info, CommandLine& line, St
   app.add_flag("-q,--quiet", line.quiet, "Print nothing but errors");
   app.add_flag("-v,--verbose", line.verbose, "Print settings and files as well");
   app.add_flag("--dump-params", line.dump, "Print the resolved parameters and stop");
+  app.add_flag("--dump-yaml", line.dump_yaml, "Print the parameters as a block of pipeline.yaml and stop");
   for (const auto* list : {&info.inputs, &info.outputs}) {
     const bool is_input = list == &info.inputs;
     for (const StageFile& file : *list) {
@@ -213,6 +215,10 @@ int run_stage(int argc, char** argv, const StageInfo& info, ParameterTable table
           std::cout << dump_params(info.name, info.revision, table) << std::flush;
           return;
         }
+        if (line.dump_yaml) {
+          std::cout << parameter_yaml(info.name, info.summary, table) << std::flush;
+          return;
+        }
         resolve_files(info, line, state);
         state.params_json = params_json(table);
         state.quiet = line.quiet;
@@ -226,7 +232,7 @@ int run_stage(int argc, char** argv, const StageInfo& info, ParameterTable table
         print_summary(state);
       },
       problems);
-  if (!line.dump) {
+  if (!line.dump && !line.dump_yaml) {
     write_log(line, work_given, info, state, problems, exit_code);
   }
   return exit_code;

@@ -62,6 +62,10 @@ std::string dump_params(const std::string& stage, int revision, const ParameterT
 /// The table of `--help` and of the stage's README: name, default, unit, range, meaning.
 std::string parameter_help(const ParameterTable& table);
 
+/// What `--dump-yaml` prints: the stage's block of pipeline.yaml with every parameter at its present value
+/// and a comment on each. pipeline.yaml is made of these blocks.
+std::string parameter_yaml(const std::string& stage, const std::string& summary, const ParameterTable& table);
+
 /// The blocks that pipeline.yaml may have: one per stage, in the order of the pipeline.
 const std::vector<std::string>& known_stages();
 

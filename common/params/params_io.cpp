@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 
 #include "common/artefact/atomic_file.h"
@@ -224,6 +225,32 @@ std::string parameter_help(const ParameterTable& table) {
     const std::string unit = p.unit == "1" ? "" : " " + p.unit;
     text += "  " + p.name + ": " + p.default_text + "   (" + p.range + unit +
             (p.may_be_auto ? ", or auto" : "") + ")\n      " + p.description + "\n";
+  }
+  return text;
+}
+
+std::string parameter_yaml(const std::string& stage, const std::string& summary,
+                           const ParameterTable& table) {
+  constexpr std::size_t kWidth = 120;
+  std::string text = "# " + summary + "\n" + stage + ":" + (table.empty() ? "  # no parameters" : "") + "\n";
+  for (const Parameter& p : table) {
+    std::string comment = p.description;
+    while (!comment.empty() && comment.back() == '.') {
+      comment.pop_back();
+    }
+    const std::string unit = p.unit == "1" ? "" : " " + p.unit;
+    std::istringstream words(comment + " [" + p.range + unit + (p.may_be_auto ? ", or auto" : "") + "]");
+    std::string line = "  #";
+    for (std::string word; words >> word;) {
+      if (line.size() + 1 + word.size() > kWidth) {
+        text += line + "\n";
+        line = "  #";
+      }
+      line += " " + word;
+    }
+    std::string value = p.get();
+    std::erase(value, '"');
+    text += line + "\n  " + p.name + ": " + value + "\n";
   }
   return text;
 }

@@ -180,6 +180,17 @@ TEST_F(ParamsIo, help_names_every_parameter_with_default_unit_and_range) {
   EXPECT_NE(help.find("0.01 … 1 m, or auto"), std::string::npos);
 }
 
+TEST_F(ParamsIo, yaml_block_reads_back_to_the_same_values) {
+  errors_of("graphcut: {mu_m: 0.25, mode: exact, enabled: false, angle_deg: 12.5}\n");
+  const std::string before = params_json(table);
+  const std::string block = parameter_yaml("graphcut", "The cut", table);
+  EXPECT_EQ(errors_of(block), "");
+  EXPECT_EQ(params_json(table), before);
+  EXPECT_NE(block.find("  # Width of a step [0.01 … 1 m, or auto]\n  step_m: auto\n"), std::string::npos)
+      << block;
+  EXPECT_EQ(parameter_yaml("accept_lines", "The door", {}), "# The door\naccept_lines:  # no parameters\n");
+}
+
 TEST(KnownStages, are_those_of_the_pipeline_in_its_order) {
   EXPECT_EQ(known_stages().front(), "ingest");
   EXPECT_EQ(known_stages().size(), 13U);

@@ -1,0 +1,14 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# usage: pipeline_yaml.sh BUILD: prints pipeline.yaml with every default, as the stages themselves know them.
+set -eu
+cat <<'EOF'
+# Parameters of roomcut: one block per stage, nothing shared. What is left out keeps its default, which is what stands here.
+# `auto` is derived from the scan (noise, density, extent); every run prints the value that it chose and why.
+# Change a value and `make run`: that stage runs again, and of what follows only what its result changes.
+EOF
+for stage in ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines extract report \
+             evaluate synthesize; do
+  echo
+  "$1/bin/$stage" --dump-yaml
+done
