@@ -29,6 +29,9 @@ ParameterTable partition_parameters(PartitionParams& p) {
              "Distance of the bounding box from the scan and the lines."),
       number("extend_m", p.extend_m, "m", 0.0, 10000.0,
              "A line cuts the faces that its support, lengthened by this at both ends, enters."),
+      boolean(
+          "prune", p.prune,
+          "Takes away the parts of a line beyond its reach that no other line needs: fewer, larger cells."),
       integer("max_cells", p.max_cells, "1", 1000, 200000000,
               "More cells than this are an error, not a long wait."),
   };
@@ -51,6 +54,7 @@ void body(StageRun& run, const PartitionParams& params) {
 
   run.count("lines", static_cast<double>(complex.lines.size()));
   run.count("lines that cut nothing new", static_cast<double>(result.uncut.size()));
+  run.count("plan faces before pruning", static_cast<double>(result.faces_before_pruning));
   run.count("plan faces", static_cast<double>(complex.faces()));
   run.count("plan edges", static_cast<double>(complex.edges.size()));
   run.count("layers", static_cast<double>(complex.layers()));

@@ -7,6 +7,7 @@ namespace roomcut {
 struct PartitionParams {
   double margin_m = 0.5;
   double extend_m = 1.0;
+  bool prune = true;
   int max_cells = 20000000;
 };
 

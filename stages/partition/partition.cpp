@@ -6,6 +6,7 @@
 
 #include "common/errors/codes.h"
 #include "stages/partition/insert_line.h"
+#include "stages/partition/prune.h"
 #include "stages/partition/subdivision.h"
 #include "stages/partition/to_complex.h"
 
@@ -61,6 +62,14 @@ void bounding_box(const WallLines& lines, double margin, Vec2& low, Vec2& high) 
   high.array() += margin;
 }
 
+std::vector<Reach> reaches(const std::vector<CellComplex::Line>& lines, double extend_m) {
+  std::vector<Reach> reach;
+  for (const CellComplex::Line& line : lines) {
+    reach.push_back({line.line, line.t0 - extend_m, line.t1 + extend_m});
+  }
+  return reach;
+}
+
 void check_budget(std::size_t faces, std::size_t layers, const PartitionParams& params) {
   if (faces * layers > static_cast<std::size_t>(params.max_cells)) {
     throw StageError(
@@ -91,7 +100,8 @@ Partition partition(const WallLines& lines, const std::vector<double>& levels,
   bounding_box(lines, params.margin_m, low, high);
   Subdivision plan(low, high);
   LineInserter inserter(plan);
-  for (const std::int32_t i : by_falling_support(lines.lines)) {
+  const std::vector<std::int32_t> order = by_falling_support(lines.lines);
+  for (const std::int32_t i : order) {
     const CellComplex::Line& line = complex.lines[i];
     if (inserter.insert(line.line, line.t0 - params.extend_m, line.t1 + params.extend_m, i) == 0) {
       result.uncut.push_back(line.wall_id);
@@ -99,6 +109,9 @@ Partition partition(const WallLines& lines, const std::vector<double>& levels,
     check_budget(plan.face_start.size(), complex.layers(), params);
   }
   result.faces_before_pruning = plan.face_start.size();
+  if (params.prune) {
+    prune(plan, reaches(complex.lines, params.extend_m), order);
+  }
   to_complex(plan, complex);
   return result;
 }

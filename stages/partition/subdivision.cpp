@@ -70,6 +70,53 @@ void Subdivision::split_face(std::int32_t h, std::int32_t g, std::int32_t line, 
   slot_[face] = 2 * split + (fresh_is_below ? 1 : 0);
 }
 
+void Subdivision::link(std::int32_t before, std::int32_t after) {
+  half_edges[before].next = after;
+  half_edges[after].prev = before;
+}
+
+void Subdivision::remove_edge(std::int32_t h) {
+  const std::int32_t t = twin(h);
+  const std::int32_t kept = half_edges[h].face;
+  const std::int32_t gone = half_edges[t].face;
+  for (std::int32_t walk = half_edges[t].next; walk != t; walk = half_edges[walk].next) {
+    half_edges[walk].face = kept;
+  }
+  const std::int32_t into_origin = half_edges[h].prev;
+  const std::int32_t into_target = half_edges[t].prev;
+  link(into_origin, half_edges[t].next);
+  link(into_target, half_edges[h].next);
+  face_start[kept] = into_origin;
+  face_start[gone] = kRemoved;
+  half_edges[h].face = half_edges[t].face = kRemoved;
+  dissolve_end(into_origin);
+  dissolve_end(into_target);
+}
+
+/// Where h and the half-edge after it are the only edges at a vertex and on one line, h takes over the other
+/// one's part.
+void Subdivision::dissolve_end(std::int32_t h) {
+  const std::int32_t ahead = half_edges[h].next;
+  const std::int32_t t = twin(h);
+  const std::int32_t back = twin(ahead);
+  const bool corner_of_rectangle = half_edges[ahead].origin < 4;
+  if (half_edges[back].next != t || half_edges[h].line != half_edges[ahead].line || corner_of_rectangle) {
+    return;
+  }
+  const std::int32_t face = half_edges[h].face;
+  const std::int32_t beyond = half_edges[t].face;
+  half_edges[t].origin = half_edges[back].origin;
+  link(h, half_edges[ahead].next);
+  link(half_edges[back].prev, t);
+  if (face != kOutside) {
+    face_start[face] = h;
+  }
+  if (beyond != kOutside) {
+    face_start[beyond] = t;
+  }
+  half_edges[ahead].face = half_edges[back].face = kRemoved;
+}
+
 std::int32_t& Subdivision::child(std::int32_t slot) {
   Split& split = splits_[slot / 2];
   return slot % 2 == 0 ? split.below : split.above;
@@ -92,7 +139,9 @@ std::vector<std::int32_t> Subdivision::faces_in_tree_order() const {
     const std::int32_t at = open.back();
     open.pop_back();
     if (at < 0) {
-      order.push_back(~at);
+      if (face_start[~at] != kRemoved) {
+        order.push_back(~at);
+      }
     } else {
       open.push_back(splits_[at].above);
       open.push_back(splits_[at].below);

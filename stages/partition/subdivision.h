@@ -16,6 +16,7 @@ class Subdivision {
  public:
   static constexpr std::int32_t kOutside = -1;
   static constexpr std::int32_t kNoLine = -1;
+  static constexpr std::int32_t kRemoved = -2;  ///< face of a half-edge that is no longer there
 
   Subdivision(const Vec2& low, const Vec2& high);
 
@@ -28,7 +29,7 @@ class Subdivision {
 
   std::vector<Vec2> vertices;
   std::vector<HalfEdge> half_edges;
-  std::vector<std::int32_t> face_start;  ///< a half-edge of every face
+  std::vector<std::int32_t> face_start;  ///< a half-edge of every face; kRemoved = merged into another
 
   std::int32_t twin(std::int32_t h) const { return h ^ 1; }
   std::int32_t target(std::int32_t h) const { return half_edges[h ^ 1].origin; }
@@ -48,6 +49,12 @@ class Subdivision {
   /// in random order.
   std::int32_t locate(const Vec2& p) const;
 
+  /// Takes an edge away: the faces on its two sides become one, that of h. They must differ, and neither end
+  /// of the edge may be left with a single edge. An end that is left with two edges on one line is dissolved:
+  /// they become one edge. locate() must not be called afterwards.
+  void remove_edge(std::int32_t h);
+  bool is_removed(std::int32_t h) const { return half_edges[h].face == kRemoved; }
+
   /// Faces in the order of the tree of splits: neighbours in space are near in this order.
   std::vector<std::int32_t> faces_in_tree_order() const;
 
@@ -61,6 +68,8 @@ class Subdivision {
   std::vector<std::int32_t> slot_;  ///< face -> 2 * split + (0 below, 1 above); -1 = the tree's root
 
   std::int32_t& child(std::int32_t slot);
+  void link(std::int32_t before, std::int32_t after);
+  void dissolve_end(std::int32_t h);
 };
 
 }  // namespace roomcut

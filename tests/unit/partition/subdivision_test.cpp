@@ -55,5 +55,19 @@ TEST(Subdivision, ASplitFaceFallsIntoItsTwoSidesAndIsFoundAgain) {
   EXPECT_EQ(plan.faces_in_tree_order().size(), 2U);
 }
 
+TEST(Subdivision, ARemovedEdgeLeavesOneFaceWithoutItsVertices) {
+  Subdivision plan({0, 0}, {4, 3});
+  const std::int32_t bottom = plan.split_edge(0, {1, 0});
+  const std::int32_t top = plan.split_edge(4, {1, 3});
+  plan.split_face(top, bottom, 7, Line2{0, 1});
+  const auto chord = static_cast<std::int32_t>(plan.half_edges.size() - 2);
+  EXPECT_EQ(plan.half_edges[chord].line, 7);
+  const std::int32_t kept = plan.half_edges[chord].face;
+  plan.remove_edge(chord);
+  EXPECT_TRUE(plan.is_removed(chord));
+  EXPECT_EQ(loop(plan, plan.face_start[kept]).size(), 4U);  // the corners of the rectangle only
+  EXPECT_EQ(plan.faces_in_tree_order(), (std::vector<std::int32_t>{kept}));
+}
+
 }  // namespace
 }  // namespace roomcut

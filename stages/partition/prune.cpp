@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/partition/prune.h"
+
+#include <algorithm>
+#include <functional>
+#include <queue>
+#include <utility>
+
+#include "common/cells/cell_complex.h"
+
+namespace roomcut {
+
+namespace {
+
+/// Rounding may turn a straight corner into a reflex one by this much [m].
+constexpr double kStraight_m = 1e-10;
+
+/// Whether the edge lies beyond the part of its line that is to cut.
+bool beyond_reach(const Subdivision& plan, const std::vector<Reach>& reach, std::int32_t h) {
+  const std::int32_t line = plan.half_edges[h].line;
+  if (line == Subdivision::kNoLine || plan.is_removed(h)) {
+    return false;
+  }
+  const auto [low, high] = std::minmax(
+      {reach[line].line.along(plan.from(h)), reach[line].line.along(plan.vertices[plan.target(h)])});
+  return high <= reach[line].t0 + kPlanSnap_m || low >= reach[line].t1 - kPlanSnap_m;
+}
+
+/// Whether the corner that is left at the origin of h when h is taken away is convex.
+bool convex_without(const Subdivision& plan, std::int32_t h) {
+  const std::int32_t into = plan.half_edges[h].prev;
+  const std::int32_t out = plan.half_edges[plan.twin(h)].next;
+  if (plan.twin(into) == out) {
+    return false;  // the edge's end would dangle
+  }
+  const Vec2 a = plan.from(h) - plan.from(into);
+  const Vec2 b = plan.vertices[plan.target(out)] - plan.from(h);
+  return a.x() * b.y() - a.y() * b.x() >= -kStraight_m * std::max(a.norm(), b.norm());
+}
+
+}  // namespace
+
+void prune(Subdivision& plan, const std::vector<Reach>& reach, const std::vector<std::int32_t>& order) {
+  std::vector<std::int32_t> strength(reach.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    strength[order[i]] = static_cast<std::int32_t>(order.size() - i);
+  }
+  using Entry = std::pair<std::int32_t, std::int32_t>;  // weak lines come out first; then by half-edge
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  const auto offer = [&](std::int32_t h) {
+    if (beyond_reach(plan, reach, h)) {
+      queue.emplace(strength[plan.half_edges[h].line], h & ~1);
+    }
+  };
+  for (std::int32_t h = 0; h < static_cast<std::int32_t>(plan.half_edges.size()); h += 2) {
+    offer(h);
+  }
+  while (!queue.empty()) {
+    const std::int32_t h = queue.top().second;
+    queue.pop();
+    if (!beyond_reach(plan, reach, h) || !convex_without(plan, h) || !convex_without(plan, plan.twin(h))) {
+      continue;
+    }
+    const std::int32_t face = plan.half_edges[h].face;
+    plan.remove_edge(h);
+    // The corners of the joined face have changed: what stood against its other edges may have gone.
+    std::int32_t walk = plan.face_start[face];
+    do {
+      offer(walk);
+      walk = plan.half_edges[walk].next;
+    } while (walk != plan.face_start[face]);
+  }
+}
+
+}  // namespace roomcut
