@@ -29,7 +29,8 @@ std::vector<DescribedRoom> read_described_rooms(const std::filesystem::path& pat
   const std::string text = read_text_file(path);
   std::vector<DescribedRoom> rooms;
   try {
-    for (const Json& room : Json::parse(text).at("rooms")) {
+    const Json root = Json::parse(text);
+    for (const Json& room : root.at("rooms")) {
       rooms.push_back(described(room, origin));
     }
   } catch (const Json::exception& error) {
