@@ -40,7 +40,7 @@ inline constexpr ErrorCode kArtefactMismatch{
 inline constexpr ErrorCode kLinesNotJson{"L01", ExitCode::kInput};
 inline constexpr ErrorCode kLinesNotFeatureCollection{"L02", ExitCode::kInput};
 inline constexpr ErrorCode kLinesNoMember{
-    "L03", ExitCode::kInput};  ///< no `roomcut` member and no base to take it from
+    "L03", ExitCode::kInput};  ///< the `roomcut` member is another artefact's
 inline constexpr ErrorCode kLinesVersion{"L04", ExitCode::kInput};
 inline constexpr ErrorCode kLinesGeometry{"L05", ExitCode::kInput};     ///< missing or not a LineString
 inline constexpr ErrorCode kLinesCoordinates{"L06", ExitCode::kInput};  ///< not numbers, not finite, too few

@@ -50,10 +50,25 @@ std::optional<bool> truth_of(const Json& value) {
   return std::nullopt;
 }
 
-/// Indices of wall slices; also as text, "[0, 1]".
+/// A list as GDAL writes it into formats that have none: "(2:0,2)"; also "[0, 2]" and "0, 2".
+Json list_from_text(std::string text) {
+  text = trimmed(text);
+  const bool ogr =
+      !text.empty() && text.front() == '(' && text.back() == ')' && text.find(':') != std::string::npos;
+  if (ogr) {
+    text = text.substr(text.find(':') + 1);
+    text.pop_back();
+  }
+  if (text.empty() || text.front() != '[') {
+    text = "[" + text + "]";
+  }
+  return Json::parse(text, nullptr, false);
+}
+
+/// Indices of wall slices.
 std::optional<std::vector<int>> levels_of(Json value) {
   if (value.is_string()) {
-    value = Json::parse(value.get<std::string>(), nullptr, false);
+    value = list_from_text(value.get<std::string>());
   }
   if (!value.is_array() || value.empty()) {
     return std::nullopt;

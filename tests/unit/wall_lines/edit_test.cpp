@@ -137,8 +137,10 @@ TEST_F(Edit, TextIsTakenWhereItMeansANumberOrATruth) {
   feature("w0001")["properties"]["support_m"] = "9.0";
   feature("w0001")["properties"]["locked"] = "False";
   feature("w0007")["properties"]["locked"] = 1;
-  feature("w0007")["properties"]["levels"] = "[2, 0]";
-  EXPECT_EQ(read().payload_sha256, wall_lines_payload_sha256(base_));
+  for (const char* levels : {"[2, 0]", "(2:0,2)", "0, 2"}) {
+    feature("w0007")["properties"]["levels"] = levels;
+    EXPECT_EQ(read().payload_sha256, wall_lines_payload_sha256(base_)) << levels;
+  }
 }
 
 TEST_F(Edit, AThirdCoordinateIsIgnoredWithAWarning) {
