@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/cells/cell_complex.h"
+#include "stages/partition/reach.h"
 
 namespace roomcut {
 
@@ -32,6 +33,7 @@ int LineInserter::insert(const Line2& line, double t0, double t1, std::int32_t i
   collect_faces(plan_.locate(line.at(0.5 * (t0 + t1))));
   int splits = 0;
   for (const std::int32_t face : faces_) {
+    note_shared_edges(face, index);
     ChordEnd down;
     ChordEnd up;
     if (!find_chord(face, down, up) || !worth_a_split(down, up)) {
@@ -104,6 +106,20 @@ bool LineInserter::touches_segment(std::int32_t h) const {
   const double step = along(end) - ta;
   const auto [low, high] = std::minmax({ta + s0 * step, ta + s1 * step});
   return low <= t1_ + kReach_m && high >= t0_ - kReach_m;
+}
+
+/// Notes the face's edges that the segment runs along. They stay with the line that was there first, for now.
+void LineInserter::note_shared_edges(std::int32_t face, std::int32_t index) {
+  const std::int32_t first = plan_.face_start[face];
+  std::int32_t h = first;
+  do {
+    const std::int32_t owner = plan_.half_edges[h].line;
+    if (owner != Subdivision::kNoLine && owner != index && runs_along(plan_, h, line_) &&
+        overlap(plan_, h, {line_, t0_, t1_}) > kPlanSnap_m) {
+      shared_.emplace(owner, index);
+    }
+    h = plan_.half_edges[h].next;
+  } while (h != first);
 }
 
 /// The ends of the chord that the line cuts from the face: `down` where the boundary, counter-clockwise,

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "stages/partition/subdivision.h"
@@ -19,6 +21,10 @@ class LineInserter {
   /// faces along the segment are looked at. Returns the number of faces split.
   int insert(const Line2& line, double t0, double t1, std::int32_t index);
 
+  /// Pairs (line of an edge, line inserted later whose segment runs along that edge): lines that share edges,
+  /// ascending.
+  const std::set<std::pair<std::int32_t, std::int32_t>>& shared() const { return shared_; }
+
  private:
   struct ChordEnd {
     std::int32_t h = -1;  ///< the end is origin(h), or a new vertex at `point` inside h
@@ -30,6 +36,7 @@ class LineInserter {
   bool clip_to_rectangle(double& t0, double& t1) const;
   void collect_faces(std::int32_t start);
   bool touches_segment(std::int32_t h) const;
+  void note_shared_edges(std::int32_t face, std::int32_t index);
   bool find_chord(std::int32_t face, ChordEnd& down, ChordEnd& up) const;
   ChordEnd end_before(std::int32_t h, ChordEnd on_line) const;
   bool worth_a_split(const ChordEnd& down, const ChordEnd& up) const;
@@ -43,6 +50,7 @@ class LineInserter {
   std::vector<std::int32_t> faces_;  ///< along the segment
   std::vector<std::int32_t> seen_;   ///< face -> round_ when it is in faces_
   std::int32_t round_ = 0;
+  std::set<std::pair<std::int32_t, std::int32_t>> shared_;
 };
 
 }  // namespace roomcut

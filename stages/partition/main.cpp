@@ -53,7 +53,7 @@ void body(StageRun& run, const PartitionParams& params) {
   write_cells(run.output("cells-out"), complex, run.provenance());
 
   run.count("lines", static_cast<double>(complex.lines.size()));
-  run.count("lines that cut nothing new", static_cast<double>(result.uncut.size()));
+  run.count("lines without an edge of their own", static_cast<double>(result.without_edge.size()));
   run.count("plan faces before pruning", static_cast<double>(result.faces_before_pruning));
   run.count("plan faces", static_cast<double>(complex.faces()));
   run.count("plan edges", static_cast<double>(complex.edges.size()));

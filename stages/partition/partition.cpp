@@ -7,6 +7,7 @@
 #include "common/errors/codes.h"
 #include "stages/partition/insert_line.h"
 #include "stages/partition/prune.h"
+#include "stages/partition/reach.h"
 #include "stages/partition/subdivision.h"
 #include "stages/partition/to_complex.h"
 
@@ -70,6 +71,22 @@ std::vector<Reach> reaches(const std::vector<CellComplex::Line>& lines, double e
   return reach;
 }
 
+std::vector<std::string> lines_without_edge(const CellComplex& complex) {
+  std::vector<bool> has_edge(complex.lines.size(), false);
+  for (const CellComplex::Edge& edge : complex.edges) {
+    if (edge.line >= 0) {
+      has_edge[edge.line] = true;
+    }
+  }
+  std::vector<std::string> without;
+  for (std::size_t i = 0; i < has_edge.size(); ++i) {
+    if (!has_edge[i]) {
+      without.push_back(complex.lines[i].wall_id);
+    }
+  }
+  return without;
+}
+
 void check_budget(std::size_t faces, std::size_t layers, const PartitionParams& params) {
   if (faces * layers > static_cast<std::size_t>(params.max_cells)) {
     throw StageError(
@@ -101,18 +118,18 @@ Partition partition(const WallLines& lines, const std::vector<double>& levels,
   Subdivision plan(low, high);
   LineInserter inserter(plan);
   const std::vector<std::int32_t> order = by_falling_support(lines.lines);
+  const std::vector<Reach> reach = reaches(complex.lines, params.extend_m);
   for (const std::int32_t i : order) {
-    const CellComplex::Line& line = complex.lines[i];
-    if (inserter.insert(line.line, line.t0 - params.extend_m, line.t1 + params.extend_m, i) == 0) {
-      result.uncut.push_back(line.wall_id);
-    }
+    inserter.insert(reach[i].line, reach[i].t0, reach[i].t1, i);
     check_budget(plan.face_start.size(), complex.layers(), params);
   }
   result.faces_before_pruning = plan.face_start.size();
+  assign_shared_edges(plan, reach, inserter.shared(), order);
   if (params.prune) {
-    prune(plan, reaches(complex.lines, params.extend_m), order);
+    prune(plan, reach, order);
   }
   to_complex(plan, complex);
+  result.without_edge = lines_without_edge(complex);
   return result;
 }
 

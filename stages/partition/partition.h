@@ -11,7 +11,7 @@ namespace roomcut {
 
 struct Partition {
   CellComplex complex;
-  std::vector<std::string> uncut;  ///< wall_ids of lines that cut nothing: doubles, or outside the box
+  std::vector<std::string> without_edge;  ///< wall_ids of lines that no edge lies on: doubles of other lines
   std::size_t faces_before_pruning = 0;
 };
 

@@ -15,15 +15,13 @@ namespace {
 /// Rounding may turn a straight corner into a reflex one by this much [m].
 constexpr double kStraight_m = 1e-10;
 
-/// Whether the edge lies beyond the part of its line that is to cut.
+/// Whether the edge lies beyond its line's reach.
 bool beyond_reach(const Subdivision& plan, const std::vector<Reach>& reach, std::int32_t h) {
   const std::int32_t line = plan.half_edges[h].line;
   if (line == Subdivision::kNoLine || plan.is_removed(h)) {
     return false;
   }
-  const auto [low, high] = std::minmax(
-      {reach[line].line.along(plan.from(h)), reach[line].line.along(plan.vertices[plan.target(h)])});
-  return high <= reach[line].t0 + kPlanSnap_m || low >= reach[line].t1 - kPlanSnap_m;
+  return overlap(plan, h, reach[line]) <= kPlanSnap_m;
 }
 
 /// Whether the corner that is left at the origin of h when h is taken away is convex.

@@ -4,15 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "stages/partition/subdivision.h"
+#include "stages/partition/reach.h"
 
 namespace roomcut {
-
-/// A line and the part of it that is to cut.
-struct Reach {
-  Line2 line;
-  double t0, t1;  ///< [m] along the line
-};
 
 /// A face can only be split along its whole chord, so the lines that were cut in first, when faces were
 /// large, run on far beyond their reach. This takes away every edge that lies beyond its line's reach,

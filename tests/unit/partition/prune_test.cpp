@@ -85,6 +85,19 @@ TEST(Prune, KeepsEveryEdgeWithinItsLinesReach) {
   }
 }
 
+TEST(Prune, TwoWallsInOneRowBothKeepTheirEdges) {
+  // The same carrier but for the rounding of 6 decimals; the stronger line is cut in first and runs through
+  // the weaker.
+  const std::vector<WallLine> walls{wall("w1", {1, 4}, {9, 4.000002}),
+                                    wall("w2", {14, 4.000003}, {18, 4.000004}),
+                                    wall("w3", {10.5, 1}, {10.5, 7}), wall("w4", {12.5, 1}, {12.5, 7})};
+  const CellComplex complex = cut(walls, true);
+  EXPECT_EQ(find_violation(complex), "");
+  EXPECT_NEAR(length_on_line(complex, 0), 11, 1e-5);  // from the box to w3
+  EXPECT_NEAR(length_on_line(complex, 1), 8, 1e-5);   // from w4 to the box
+  EXPECT_EQ(complex.faces(), 5U);
+}
+
 double faces_of_copies(const WallLines& one, int copies) {
   WallLines row = one;
   row.lines.clear();
