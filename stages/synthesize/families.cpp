@@ -202,7 +202,7 @@ std::vector<Lot> Generator::split_storey(const Lot& footprint) {
 void Generator::split(const Lot& lot, double target, std::vector<Lot>& leaves) {
   const double area = doubled_area(lot.corners) / 2;
   const bool small = area < target * draw(1.0, 1.8);
-  for (int attempt = 0; attempt < 8 && !small; ++attempt) {
+  for (int attempt = 0; attempt < 32 && !small; ++attempt) {
     const bool across_x = extent(lot, {1, 0}) > extent(lot, {0, 1});
     const double angle = (across_x ? 90 : 0) * kDegree + draw(-1, 1) * family_.split_angle * kDegree;
     const Vec2 direction(std::cos(angle), std::sin(angle));

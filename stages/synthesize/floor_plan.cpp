@@ -8,9 +8,12 @@ namespace roomcut {
 
 namespace {
 
-constexpr double kNarrowest = 2.2;     // [m]
-constexpr double kShortestSide = 0.8;  // [m]
-constexpr double kOnLine = 1e-6;       // [m]
+constexpr double kNarrowest = 2.2;       // [m]
+constexpr double kShortestSide = 0.8;    // [m]
+constexpr double kShortestChord = 0.15;  // [m]
+constexpr double kChordTurn = 0.5;       // a smaller turn between sides is an arc's [rad]
+constexpr double kSharpestTurn = 2.53;   // corners of 35 degrees [rad]
+constexpr double kOnLine = 1e-6;         // [m]
 
 /// The part of the lot on the left of the line.
 Lot left_part(const Lot& lot, const Vec2& through, const Vec2& direction, double wall) {
@@ -52,13 +55,14 @@ double extent(const Lot& lot, const Vec2& direction) {
 bool is_room(const Lot& lot) {
   const std::size_t n = lot.corners.size();
   if (n < 3) return false;
+  const auto side = [&](std::size_t i) -> Vec2 { return lot.corners[(i + 1) % n] - lot.corners[i % n]; };
+  const auto turn = [&](std::size_t i) {  // between side i and the next one
+    return std::acos(std::clamp(side(i).normalized().dot(side(i + 1).normalized()), -1.0, 1.0));
+  };
   for (std::size_t i = 0; i < n; ++i) {
-    const Vec2 side = lot.corners[(i + 1) % n] - lot.corners[i];
-    const Vec2 next = lot.corners[(i + 2) % n] - lot.corners[(i + 1) % n];
-    const double turn = std::acos(std::clamp(side.normalized().dot(next.normalized()), -1.0, 1.0));
-    const bool chord = turn < 0.5 && next.norm() > 0.15 && side.norm() > 0.15;
-    if (turn > 2.53 || (side.norm() < kShortestSide && !chord)) return false;
-    if (extent(lot, Vec2(-side.y(), side.x()).normalized()) < kNarrowest) return false;
+    const bool chord = turn(i) < kChordTurn || turn(i + n - 1) < kChordTurn;
+    if (turn(i) > kSharpestTurn || side(i).norm() < (chord ? kShortestChord : kShortestSide)) return false;
+    if (extent(lot, Vec2(-side(i).y(), side(i).x()).normalized()) < kNarrowest) return false;
   }
   return true;
 }

@@ -36,7 +36,8 @@ Vec3 point_in(const SurfaceTriangle& triangle, double a, double b) {
 }
 
 Holes::Holes(const Scene& scene, const Building& building, const Surfaces& surfaces)
-    : index_(building.lo.head<2>(), building.hi.head<2>(), kLargest) {
+    : index_(building.lo.head<2>() - Vec2::Constant(kLargest),
+             building.hi.head<2>() + Vec2::Constant(kLargest), kLargest) {
   const AreaTable areas(surfaces.triangles());
   std::uint64_t counter = 0;
   const auto draw = [&] { return random_unit(scene.seed, kStream, counter++); };

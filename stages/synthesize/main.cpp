@@ -19,7 +19,7 @@ void run(StageRun& stage, const SynthesizeParams& params) {
   Scene scene = read_scene(stage.input("scene"));
   override_scene(params, scene);
   const Building building = place(scene);
-  const TruthMesh truth = make_truth(scene, building);
+  const TriangleMesh truth = make_truth(scene, building);
   const Surfaces surfaces(scene, building, truth);
   const auto source = make_source(scene, building, surfaces);
   Progress progress = stage.progress("points", source->expected_points());

@@ -2,47 +2,52 @@
 #include "stages/synthesize/plan_union.h"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
-#include <CGAL/Constrained_triangulation_plus_2.h>
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_2.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
 #include "common/errors/codes.h"
+#include "stages/synthesize/plan.h"
+#include "stages/synthesize/plan_graph.h"
 
 namespace roomcut {
 
 namespace {
 
-template <class Kernel, class Tag>
-struct Triangulation {
-  using Vb = CGAL::Triangulation_vertex_base_with_info_2<std::int32_t, Kernel>;
-  using Fb = CGAL::Triangulation_face_base_with_info_2<std::int32_t, Kernel,
-                                                       CGAL::Constrained_triangulation_face_base_2<Kernel>>;
-  using Tds = CGAL::Triangulation_data_structure_2<Vb, Fb>;
-  using Type = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Tds, Tag>;
-};
-using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
-using Overlay =
-    CGAL::Constrained_triangulation_plus_2<Triangulation<Exact, CGAL::Exact_intersections_tag>::Type>;
-using Inexact = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Plain = Triangulation<Inexact, CGAL::No_constraint_intersection_requiring_constructions_tag>::Type;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::int32_t, Kernel>;
+using FaceBase =
+    CGAL::Triangulation_face_base_with_info_2<std::int32_t, Kernel,
+                                              CGAL::Constrained_triangulation_face_base_2<Kernel>>;
+using Cdt =
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel,
+                                               CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
+                                               CGAL::No_constraint_intersection_requiring_constructions_tag>;
 
+constexpr double kTolerance = 1e-6;  // corners of the plan that are closer are one [m]
+constexpr double kStraight = 1e-9;   // a corner that is off a straight wall by less is dropped [m]
 constexpr std::int32_t kUnset = -1;
 
-/// Gives `region` to all triangles that are reached from `seed` without crossing a constraint.
-template <class Cdt>
-void flood(Cdt& cdt, typename Cdt::Face_handle seed, std::int32_t region) {
-  std::vector<typename Cdt::Face_handle> todo{seed};
+/// Gives `region` to all triangles that are reached from `seed` without crossing a constraint, and returns
+/// the largest.
+Cdt::Face_handle flood(const Cdt& cdt, Cdt::Face_handle seed, std::int32_t region) {
+  std::vector<Cdt::Face_handle> todo{seed};
+  Cdt::Face_handle largest = seed;
+  double largest_area = 0;
   seed->info() = region;
   while (!todo.empty()) {
     const auto face = todo.back();
     todo.pop_back();
+    const double area = cdt.is_infinite(face) ? 0 : cdt.triangle(face).area();
+    if (area > largest_area) {
+      largest_area = area;
+      largest = face;
+    }
     for (int i = 0; i < 3; ++i) {
       const auto next = face->neighbor(i);
       if (next->info() != kUnset || cdt.is_constrained({face, i})) continue;
@@ -50,6 +55,14 @@ void flood(Cdt& cdt, typename Cdt::Face_handle seed, std::int32_t region) {
       todo.push_back(next);
     }
   }
+  return largest;
+}
+
+/// Whether b lies on the line from a to c.
+bool is_straight(const Vec2& a, const Vec2& b, const Vec2& c) {
+  const Vec2 along = c - a;
+  const Vec2 off = b - a;
+  return std::abs(along.x() * off.y() - along.y() * off.x()) < kStraight * along.norm() && along.dot(off) > 0;
 }
 
 class Uniter {
@@ -69,7 +82,7 @@ class Uniter {
 
   void collect_heights();
   void overlay();
-  Piece piece_at(const Exact::Point_2& p);
+  Piece piece_at(const Vec2& p);
   void check_piece(const std::vector<std::int32_t>& prisms, const Piece& piece);
   void check_touching(const Piece& a, const Piece& b);
   void collect_edges();
@@ -87,12 +100,9 @@ class Uniter {
   std::vector<Problem>& problems_;
   std::set<std::string> said_;
   PlanUnion result_;
-  Overlay cdt_;
-  std::vector<CGAL::Polygon_2<Exact>> polygons_;
-  std::vector<CGAL::Bbox_2> boxes_;
+  Cdt cdt_;
   std::vector<Piece> pieces_;
   std::map<std::vector<char>, std::int32_t> region_of_;
-  std::vector<Exact::Point_2> exact_;  // of result_.vertices
 };
 
 PlanUnion Uniter::unite() {
@@ -118,17 +128,18 @@ void Uniter::collect_heights() {
   result_.heights.erase(std::unique(result_.heights.begin(), result_.heights.end()), result_.heights.end());
 }
 
-/// Exact overlay of all plans; every triangle gets the index of its piece.
+/// The overlay of all plans; every triangle gets the index of its piece.
 void Uniter::overlay() {
-  for (const Prism& prism : building_.prisms) {
-    CGAL::Polygon_2<Exact> polygon;
-    for (const Vec2& p : prism.polygon) polygon.push_back({p.x(), p.y()});
-    boxes_.push_back(polygon.bbox());
-    for (auto edge = polygon.edges_begin(); edge != polygon.edges_end(); ++edge) {
-      cdt_.insert_constraint(edge->source(), edge->target());
-    }
-    polygons_.push_back(std::move(polygon));
+  std::vector<Polygon2> plans;
+  for (const Prism& prism : building_.prisms) plans.push_back(prism.polygon);
+  const PlanGraph graph = cut_at_crossings(plans, kTolerance);
+  result_.vertices = graph.vertices;
+  std::vector<Cdt::Vertex_handle> handle;
+  for (const Vec2& p : graph.vertices) {
+    handle.push_back(cdt_.insert({p.x(), p.y()}));
+    handle.back()->info() = static_cast<std::int32_t>(handle.size()) - 1;
   }
+  for (const auto& segment : graph.segments) cdt_.insert_constraint(handle[segment[0]], handle[segment[1]]);
   for (auto face : cdt_.all_face_handles()) face->info() = kUnset;
   const std::vector<char> solid(result_.heights.size() - 1, 0);
   region_of_[solid] = 0;
@@ -137,18 +148,17 @@ void Uniter::overlay() {
   flood(cdt_, cdt_.infinite_face(), 0);
   for (auto face : cdt_.finite_face_handles()) {
     if (face->info() != kUnset) continue;
-    pieces_.push_back(piece_at(CGAL::centroid(cdt_.triangle(face))));
-    flood(cdt_, face, static_cast<std::int32_t>(pieces_.size()) - 1);
+    const Cdt::Face_handle inner = flood(cdt_, face, static_cast<std::int32_t>(pieces_.size()));
+    Vec2 sum(0, 0);
+    for (int i = 0; i < 3; ++i) sum += result_.vertices[inner->vertex(i)->info()];
+    pieces_.push_back(piece_at(sum / 3));
   }
 }
 
-Uniter::Piece Uniter::piece_at(const Exact::Point_2& p) {
+Uniter::Piece Uniter::piece_at(const Vec2& p) {
   std::vector<std::int32_t> inside;
-  const CGAL::Bbox_2 at = p.bbox();
-  for (std::size_t i = 0; i < polygons_.size(); ++i) {
-    if (CGAL::do_overlap(at, boxes_[i]) && polygons_[i].bounded_side(p) == CGAL::ON_BOUNDED_SIDE) {
-      inside.push_back(static_cast<std::int32_t>(i));
-    }
+  for (std::size_t i = 0; i < building_.prisms.size(); ++i) {
+    if (contains(building_.prisms[i].polygon, p)) inside.push_back(static_cast<std::int32_t>(i));
   }
   Piece piece{std::vector<Owner>(result_.heights.size() - 1, kUnset), 0};
   for (const std::int32_t i : inside) {
@@ -202,18 +212,8 @@ void Uniter::check_touching(const Piece& a, const Piece& b) {
   }
 }
 
-/// The borders between different regions, with their corners rounded to double.
+/// The borders between different regions.
 void Uniter::collect_edges() {
-  for (auto vertex : cdt_.finite_vertex_handles()) vertex->info() = kUnset;
-  const auto number = [&](Overlay::Vertex_handle vertex) {
-    if (vertex->info() == kUnset) {
-      vertex->info() = static_cast<std::int32_t>(exact_.size());
-      exact_.push_back(vertex->point());
-      result_.vertices.emplace_back(CGAL::to_double(vertex->point().x()),
-                                    CGAL::to_double(vertex->point().y()));
-    }
-    return vertex->info();
-  };
   for (auto edge = cdt_.finite_edges_begin(); edge != cdt_.finite_edges_end(); ++edge) {
     if (!cdt_.is_constrained(*edge)) continue;
     const auto [face, i] = *edge;
@@ -221,9 +221,14 @@ void Uniter::collect_edges() {
     const Piece& right = pieces_[face->neighbor(i)->info()];
     check_touching(left, right);
     if (left.region == right.region) continue;
-    result_.edges.push_back({number(face->vertex(Overlay::ccw(i))), number(face->vertex(Overlay::cw(i))),
-                             left.region, right.region});
+    PlanUnion::Edge border{face->vertex(Cdt::ccw(i))->info(), face->vertex(Cdt::cw(i))->info(), left.region,
+                           right.region};
+    if (border.v0 > border.v1) border = {border.v1, border.v0, border.right, border.left};
+    result_.edges.push_back(border);
   }
+  // CGAL visits edges in the order of addresses in memory.
+  std::sort(result_.edges.begin(), result_.edges.end(),
+            [](const auto& a, const auto& b) { return std::pair(a.v0, a.v1) < std::pair(b.v0, b.v1); });
 }
 
 /// Joins edges that go on straight between the same two regions.
@@ -248,7 +253,7 @@ void Uniter::straighten() {
     const std::int32_t from = a_first ? a.v0 : b.v0;
     const std::int32_t to = a_first ? b.v1 : a.v1;
     if (a.left != b.left || a.right != b.right || from == to ||
-        !CGAL::collinear(exact_[from], exact_[v], exact_[to])) {
+        !is_straight(result_.vertices[from], result_.vertices[v], result_.vertices[to])) {
       continue;
     }
     a.v0 = from;
@@ -266,8 +271,8 @@ void Uniter::straighten() {
 void Uniter::triangulate() {
   std::vector<std::int32_t> number(result_.vertices.size(), kUnset);
   std::vector<Vec2> used;
-  std::vector<Plain::Vertex_handle> handle;
-  Plain cdt;
+  std::vector<Cdt::Vertex_handle> handle;
+  Cdt cdt;
   const auto insert = [&](std::int32_t& v) {
     if (number[v] == kUnset) {
       number[v] = static_cast<std::int32_t>(used.size());
@@ -285,19 +290,22 @@ void Uniter::triangulate() {
   for (const PlanUnion::Edge& edge : result_.edges) cdt.insert_constraint(handle[edge.v0], handle[edge.v1]);
   for (auto face : cdt.all_face_handles()) face->info() = kUnset;
   for (const PlanUnion::Edge& edge : result_.edges) {
-    Plain::Face_handle face;
+    Cdt::Face_handle face;
     int i = 0;
     if (!cdt.is_edge(handle[edge.v0], handle[edge.v1], face, i)) {
       problem("corners of the plan lie too close together", "keep corners 1 mm apart");
       return;
     }
-    const bool face_is_left = face->vertex(Plain::ccw(i)) == handle[edge.v0];
+    const bool face_is_left = face->vertex(Cdt::ccw(i)) == handle[edge.v0];
     const auto opposite = face->neighbor(i);
     if (face->info() == kUnset) flood(cdt, face, face_is_left ? edge.left : edge.right);
     if (opposite->info() == kUnset) flood(cdt, opposite, face_is_left ? edge.right : edge.left);
   }
   for (auto face : cdt.finite_face_handles()) {
-    result_.triangles.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+    std::array<std::int32_t, 3> corners{face->vertex(0)->info(), face->vertex(1)->info(),
+                                        face->vertex(2)->info()};
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    result_.triangles.push_back(corners);
     result_.triangle_region.push_back(face->info());
   }
 }

@@ -30,7 +30,7 @@ struct PlanUnion {
   }
 };
 
-/// Overlays the prisms' plans exactly (CGAL, exact constructions), labels each piece, drops the borders that
+/// Overlays the prisms' plans (corners within 1 µm are one), labels each piece, drops the borders that
 /// separate nothing, and triangulates what is left. Problems of the scene (see make_truth) are appended to
 /// `problems`.
 PlanUnion unite(const Scene& scene, const Building& building, std::vector<Problem>& problems);

@@ -47,14 +47,14 @@ const std::vector<std::int32_t>& PlanIndex::at(const Vec2& p) const {
   return cells_[static_cast<std::size_t>(y) * nx_ + x];
 }
 
-Surfaces::Surfaces(const Scene& scene, const Building& building, const TruthMesh& truth)
+Surfaces::Surfaces(const Scene& scene, const Building& building, const TriangleMesh& truth)
     : building_(building) {
   for (const auto& t : truth.triangles) {
     const Vec3& a = truth.vertices[t[0]];
-    triangles_.push_back({a, truth.vertices[t[1]] - a, truth.vertices[t[2]] - a, SurfaceKind::kTruth});
+    triangles_.push_back({a, truth.vertices[t[1]] - a, truth.vertices[t[2]] - a, PointOrigin::kTruth});
   }
-  const Vec2 lo = building.lo.head<2>();
-  const Vec2 hi = building.hi.head<2>();
+  const Vec2 lo = building.lo.head<2>() - Vec2::Constant(kCell);
+  const Vec2 hi = building.hi.head<2>() + Vec2::Constant(kCell);
   furniture_ = PlanIndex(lo, hi, kCell);
   windows_ = PlanIndex(lo, hi, kCell);
   for (std::size_t i = 0; i < building.furniture.size(); ++i) {
@@ -71,7 +71,7 @@ Surfaces::Surfaces(const Scene& scene, const Building& building, const TruthMesh
   add_reveals();
 }
 
-void Surfaces::add_parallelogram(const Vec3& corner, const Vec3& u, const Vec3& v, SurfaceKind kind) {
+void Surfaces::add_parallelogram(const Vec3& corner, const Vec3& u, const Vec3& v, PointOrigin kind) {
   triangles_.push_back({corner, u, v, kind});
   triangles_.push_back({corner + u + v, -u, -v, kind});
 }
@@ -93,8 +93,8 @@ void Surfaces::add_furniture(const Scene& scene) {
     const Vec3 corner = lift(box.centre, box.z0) - x / 2 - y / 2;
     const auto add_if_seen = [&](const Vec3& from, const Vec3& u, const Vec3& v, const Vec3& outwards) {
       const Vec3 before = from + u / 2 + v / 2 + outwards.normalized() * (1.5 * kBehind);
-      if (in_room(scene, before) && !hidden(before, SurfaceKind::kReveal)) {
-        add_parallelogram(from, u, v, SurfaceKind::kFurniture);
+      if (in_room(scene, before) && !hidden(before, PointOrigin::kReveal)) {
+        add_parallelogram(from, u, v, PointOrigin::kFurniture);
       }
     };
     add_if_seen(corner, x, z, -y);
@@ -113,15 +113,15 @@ void Surfaces::add_reveals() {
     const Vec3 up(0, 0, window.z1 - window.z0);
     const Vec3 in = lift(window.outwards * window.depth, 0);
     const Vec3 corner = lift(window.centre, window.z0) - along / 2;
-    add_parallelogram(corner, along, in, SurfaceKind::kReveal);
-    add_parallelogram(corner + up, along, in, SurfaceKind::kReveal);
-    add_parallelogram(corner, up, in, SurfaceKind::kReveal);
-    add_parallelogram(corner + along, up, in, SurfaceKind::kReveal);
+    add_parallelogram(corner, along, in, PointOrigin::kReveal);
+    add_parallelogram(corner + up, along, in, PointOrigin::kReveal);
+    add_parallelogram(corner, up, in, PointOrigin::kReveal);
+    add_parallelogram(corner + along, up, in, PointOrigin::kReveal);
   }
 }
 
-bool Surfaces::hidden(const Vec3& p, SurfaceKind kind) const {
-  const double margin = kind == SurfaceKind::kFurniture ? -kOnPlane : kBehind;
+bool Surfaces::hidden(const Vec3& p, PointOrigin kind) const {
+  const double margin = kind == PointOrigin::kFurniture ? -kOnPlane : kBehind;
   const auto& near = furniture_.at(p.head<2>());
   return std::any_of(near.begin(), near.end(), [&](std::int32_t i) {
     const SceneFurniture& box = building_.furniture[i];

@@ -29,28 +29,28 @@ class PlanIndex {
 };
 
 /// What a point comes from.
-enum class SurfaceKind : std::uint8_t { kTruth, kFurniture, kReveal };
+enum class PointOrigin : std::uint8_t { kTruth, kFurniture, kReveal };
 
 struct SurfaceTriangle {
   Vec3 a, u, v;  ///< corner and two sides [m]
-  SurfaceKind kind;
+  PointOrigin kind;
 };
 
 /// All surfaces that give points, and what hides them.
 class Surfaces {
  public:
-  Surfaces(const Scene& scene, const Building& building, const TruthMesh& truth);
+  Surfaces(const Scene& scene, const Building& building, const TriangleMesh& truth);
 
   const std::vector<SurfaceTriangle>& triangles() const { return triangles_; }
   /// Whether a point of such a surface is inside furniture or right behind or below it.
-  bool hidden(const Vec3& p, SurfaceKind kind) const;
+  bool hidden(const Vec3& p, PointOrigin kind) const;
   /// The window that holds the point p of the truth's surface, or null.
   const WallOpening* window_at(const Vec3& p) const;
 
  private:
   void add_furniture(const Scene& scene);
   void add_reveals();
-  void add_parallelogram(const Vec3& corner, const Vec3& u, const Vec3& v, SurfaceKind kind);
+  void add_parallelogram(const Vec3& corner, const Vec3& u, const Vec3& v, PointOrigin kind);
   bool in_room(const Scene& scene, const Vec3& p) const;
 
   const Building& building_;

@@ -94,7 +94,7 @@ std::uint64_t write_scan(const std::filesystem::path& path, const Scene& scene, 
 }
 
 void write_truth(const std::filesystem::path& path, const Scene& scene, const Building& building,
-                 const TruthMesh& truth) {
+                 const TriangleMesh& truth) {
   OutputFile file(path);
   const std::uint64_t n = copies(scene);
   std::string text = "OFF\n" + std::to_string(truth.vertices.size() * n) + " " +

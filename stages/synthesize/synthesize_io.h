@@ -19,10 +19,10 @@ std::uint64_t write_scan(const std::filesystem::path& path, const Scene& scene, 
 
 /// Writes the truth with all copies of the building as OFF. Throws StageError(kCannotWrite).
 void write_truth(const std::filesystem::path& path, const Scene& scene, const Building& building,
-                 const TruthMesh& truth);
+                 const TriangleMesh& truth);
 
 /// The content of truth.json (schemas/truth.md).
-nlohmann::json truth_json(const Scene& scene, const Building& building, const TruthMesh& truth,
+nlohmann::json truth_json(const Scene& scene, const Building& building, const TriangleMesh& truth,
                           std::uint64_t points);
 
 }  // namespace roomcut

@@ -101,7 +101,7 @@ std::optional<Vec3> TripodSource::measure(const Vec3& station, double column, do
   }
   double range = hit.distance;
   const Vec3 p = station + range * direction;
-  if (surfaces_.triangles()[hit.triangle].kind == SurfaceKind::kTruth) {
+  if (surfaces_.triangles()[hit.triangle].kind == PointOrigin::kTruth) {
     if (const WallOpening* window = surfaces_.window_at(p)) {
       const auto further = through_window(*window, p, direction);
       if (!further) return std::nullopt;

@@ -13,8 +13,6 @@ namespace roomcut {
 
 namespace {
 
-using Triangle = std::array<std::int32_t, 3>;
-
 /// Turns the plan and its layers into the border surface. A corner (vertex v, height l) exists where a
 /// horizontal face begins or ends at l beside v; walls run unbroken past all other heights.
 class Extruder {
@@ -23,7 +21,7 @@ class Extruder {
     corner_.assign(plan.vertices.size() * levels_, kNone);
   }
 
-  TruthMesh extrude() {
+  TriangleMesh extrude() {
     add_corners();
     for (std::size_t t = 0; t < plan_.triangles.size(); ++t) add_horizontal(t);
     for (const PlanUnion::Edge& edge : plan_.edges) add_walls(edge);
@@ -114,7 +112,7 @@ class Extruder {
   const PlanUnion& plan_;
   std::size_t levels_;
   std::vector<std::int32_t> corner_;
-  TruthMesh mesh_;
+  TriangleMesh mesh_;
 };
 
 std::string at(const Vec3& p) {
@@ -125,11 +123,11 @@ std::string at(const Vec3& p) {
 
 }  // namespace
 
-TruthMesh make_truth(const Scene& scene, const Building& building) {
+TriangleMesh make_truth(const Scene& scene, const Building& building) {
   std::vector<Problem> problems;
   const PlanUnion plan = unite(scene, building, problems);
   if (!problems.empty()) throw StageError(problems);
-  TruthMesh mesh = Extruder(plan).extrude();
+  TriangleMesh mesh = Extruder(plan).extrude();
   const std::string defect = find_defect(mesh);
   if (!defect.empty()) {
     throw StageError(errors::kSceneInvalid, scene.name, "the empty space is not 2-manifold: " + defect,
@@ -138,7 +136,7 @@ TruthMesh make_truth(const Scene& scene, const Building& building) {
   return mesh;
 }
 
-std::string find_defect(const TruthMesh& mesh) {
+std::string find_defect(const TriangleMesh& mesh) {
   std::unordered_map<std::uint64_t, std::int32_t> third;  // directed edge -> third corner of its triangle
   const auto key = [](std::int32_t a, std::int32_t b) {
     return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint32_t>(b);
@@ -170,33 +168,6 @@ std::string find_defect(const TruthMesh& mesh) {
     }
   }
   return "";
-}
-
-double volume(const TruthMesh& mesh) {
-  double sum = 0;
-  const Vec3 origin = mesh.vertices.empty() ? Vec3(0, 0, 0) : mesh.vertices.front();
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3 a = mesh.vertices[t[0]] - origin;
-    sum += a.x() * ((mesh.vertices[t[1]] - origin).y() * (mesh.vertices[t[2]] - origin).z() -
-                    (mesh.vertices[t[1]] - origin).z() * (mesh.vertices[t[2]] - origin).y());
-    sum += a.y() * ((mesh.vertices[t[1]] - origin).z() * (mesh.vertices[t[2]] - origin).x() -
-                    (mesh.vertices[t[1]] - origin).x() * (mesh.vertices[t[2]] - origin).z());
-    sum += a.z() * ((mesh.vertices[t[1]] - origin).x() * (mesh.vertices[t[2]] - origin).y() -
-                    (mesh.vertices[t[1]] - origin).y() * (mesh.vertices[t[2]] - origin).x());
-  }
-  return sum / 6;
-}
-
-double surface_area(const TruthMesh& mesh) {
-  double sum = 0;
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3 u = mesh.vertices[t[1]] - mesh.vertices[t[0]];
-    const Vec3 v = mesh.vertices[t[2]] - mesh.vertices[t[0]];
-    sum += 0.5 *
-           Vec3(u.y() * v.z() - u.z() * v.y(), u.z() * v.x() - u.x() * v.z(), u.x() * v.y() - u.y() * v.x())
-               .norm();
-  }
-  return sum;
 }
 
 }  // namespace roomcut

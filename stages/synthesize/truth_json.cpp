@@ -106,7 +106,8 @@ class TruthTables {
 
 }  // namespace
 
-json truth_json(const Scene& scene, const Building& building, const TruthMesh& truth, std::uint64_t points) {
+json truth_json(const Scene& scene, const Building& building, const TriangleMesh& truth,
+                std::uint64_t points) {
   TruthTables tables(scene, building);
   for (std::uint64_t copy = 0; copy < copies(scene); ++copy) tables.add_copy(copy);
   const Vec3 hi = building.hi + copy_offset(scene, building, copies(scene) - 1);

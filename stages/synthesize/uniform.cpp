@@ -84,7 +84,7 @@ Vec3 UniformSource::surface_point(double share, PointDraws& draws) const {
     const SurfaceTriangle& triangle = surfaces_.triangles()[areas_.find(share * areas_.total())];
     const double a = draws.unit();
     p = point_in(triangle, a, draws.unit());
-    const bool in_window = triangle.kind == SurfaceKind::kTruth && surfaces_.window_at(p) != nullptr;
+    const bool in_window = triangle.kind == PointOrigin::kTruth && surfaces_.window_at(p) != nullptr;
     if (!in_window && !surfaces_.hidden(p, triangle.kind) && !holes_.covers(p)) break;
     share = draws.unit();
   }

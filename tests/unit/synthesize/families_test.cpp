@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/synthesize/families.h"
+
+#include <gtest/gtest.h>
+
+#include "common/mesh/mesh_check.h"
+#include "stages/synthesize/truth.h"
+#include "stages/synthesize/walls.h"
+
+namespace roomcut {
+namespace {
+
+class Families : public testing::TestWithParam<std::string> {};
+
+TEST_P(Families, MakeValidBuildingsWhoseRoomsAreAllReachable) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    SCOPED_TRACE(seed);
+    Scene scene;
+    scene.name = GetParam();
+    FamilySpec spec;
+    spec.family = GetParam();
+    spec.seed = seed;
+    add_random_building(spec, scene);
+    ASSERT_GE(scene.rooms.size(), 3U);
+    Building building;
+    ASSERT_NO_THROW(building = place(scene));
+    TriangleMesh mesh;
+    ASSERT_NO_THROW(mesh = make_truth(scene, building));
+    const MeshCheck check = check_mesh(mesh);
+    EXPECT_TRUE(check.valid()) << describe_faults(check);
+    const auto storeys = static_cast<std::int64_t>(scene.storeys.size());
+    EXPECT_LE(check.components, storeys);  // doors join all rooms of a storey, shafts the storeys
+    if (seed == 1) {
+      Scene again;
+      add_random_building(spec, again);
+      ASSERT_EQ(again.rooms.size(), scene.rooms.size());
+      EXPECT_EQ(again.rooms.back().polygon, scene.rooms.back().polygon);
+    }
+  }
+}
+
+TEST_P(Families, WithoutDoorsEveryRoomStandsAlone) {
+  Scene scene;
+  FamilySpec spec;
+  spec.family = GetParam();
+  spec.doors = false;
+  spec.shafts = false;
+  add_random_building(spec, scene);
+  const MeshCheck check = check_mesh(make_truth(scene, place(scene)));
+  EXPECT_TRUE(check.valid());
+  EXPECT_EQ(check.components, static_cast<std::int64_t>(scene.rooms.size()));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Families, testing::ValuesIn(family_names()),
+                         [](const auto& family) { return family.param; });
+
+TEST(FamilyThin, HasThinWalls) {
+  Scene scene;
+  FamilySpec spec;
+  spec.family = "thin";
+  add_random_building(spec, scene);
+  const auto walls = find_walls(scene);
+  ASSERT_GT(walls.size(), 4U);
+  for (const Wall& wall : walls) {
+    EXPECT_GE(wall.thickness, 0.06 - 1e-9);
+    EXPECT_LE(wall.thickness, 0.10 + 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace roomcut
