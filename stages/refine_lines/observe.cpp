@@ -13,6 +13,8 @@ namespace {
 
 constexpr double kAzimuthFits_rad = 17.0 * std::numbers::pi / 180.0;
 constexpr std::uint32_t kFewestPoints = 4;
+constexpr double kEdge_m =
+    0.10;  ///< points without a plane this near a level belong to the edge of floor or ceiling
 
 /// Whether the strip of `half` around the segment can meet the box.
 bool strip_meets_box(const Line2& line, double t0, double t1, double half, const Vec2& low,
@@ -50,7 +52,6 @@ LineObserver::LineObserver(const std::vector<LineFaces>& lines, const std::vecto
   }
   histograms_ = std::make_unique<std::atomic<std::uint64_t>[]>(bins * OffsetHistogram::kBins);
   along_ = std::make_unique<std::atomic<std::int64_t>[]>(bins);
-  counts_ = std::make_unique<std::atomic<std::uint32_t>[]>(bins);
 }
 
 std::vector<const LineObserver::Track*> LineObserver::tracks_near(const Vec2& low, const Vec2& high) const {
@@ -89,12 +90,17 @@ void LineObserver::add(const CloudTile& tile) {
   const double per_bin = OffsetHistogram::kBins / (2 * band_m_);
   std::uint64_t taken = 0;
   for (std::size_t i = 0; i < tile.size(); ++i) {
-    if (tile.surface[i] != static_cast<std::uint8_t>(SurfaceClass::kWall)) {
+    const auto surface = static_cast<SurfaceClass>(tile.surface[i]);
+    if (surface == SurfaceClass::kHorizontal) {
       continue;
     }
+    const bool upright = surface == SurfaceClass::kWall;
     const Vec2 p(tile.x[i], tile.y[i]);
     const auto above = std::upper_bound(levels_.begin(), levels_.end(), static_cast<double>(tile.z[i]));
     if (above == levels_.begin() || above == levels_.end()) {
+      continue;
+    }
+    if (!upright && (*above - tile.z[i] < kEdge_m || tile.z[i] - *(above - 1) < kEdge_m)) {
       continue;
     }
     const auto layer = static_cast<std::size_t>(above - levels_.begin()) - 1;
@@ -105,7 +111,7 @@ void LineObserver::add(const CloudTile& tile) {
     std::size_t place = 0;
     for (const Near& candidate : near) {
       const double e = candidate.normal.dot(p) - candidate.faces->line.d;
-      if (std::abs(e) >= nearest || candidate.track->fits[tile.azimuth[i]] == 0) {
+      if (std::abs(e) >= nearest || (upright && candidate.track->fits[tile.azimuth[i]] == 0)) {
         continue;
       }
       const double t = (candidate.direction.dot(p) - candidate.faces->t0) / candidate.faces->bin_m;
@@ -130,7 +136,6 @@ void LineObserver::add(const CloudTile& tile) {
     histograms_[place * OffsetHistogram::kBins + static_cast<std::size_t>(bin)].fetch_add(
         OffsetHistogram::pack(position - bin), std::memory_order_relaxed);
     along_[place].fetch_add(std::llround(along * 1e6), std::memory_order_relaxed);
-    counts_[place].fetch_add(1, std::memory_order_relaxed);
     ++taken;
   }
   points_.fetch_add(taken, std::memory_order_relaxed);
@@ -146,12 +151,13 @@ std::vector<Observation> LineObserver::observations(std::size_t i) const {
   std::array<std::uint64_t, OffsetHistogram::kBins> histogram{};
   for (std::size_t bin = 0; bin < faces.bins; ++bin) {
     const std::size_t place = track.first + bin;
-    const std::uint32_t count = counts_[place].load();
-    if (count < kFewestPoints) {
-      continue;
-    }
+    std::uint32_t count = 0;
     for (std::size_t k = 0; k < histogram.size(); ++k) {
       histogram[k] = histograms_[place * OffsetHistogram::kBins + k].load();
+      count += OffsetHistogram::count(histogram[k]);
+    }
+    if (count < kFewestPoints) {
+      continue;
     }
     const RobustOffset found = robust_offset(histogram, band_m_, noise_m_);
     if (found.points >= kFewestPoints) {

@@ -56,7 +56,7 @@ class LineObserver {
   LineObserver(const std::vector<LineFaces>& lines, const std::vector<bool>& active,
                const std::vector<double>& levels, double band_m, double noise_m);
 
-  /// Adds the wall points of a tile. Thread-safe.
+  /// Adds the points of a tile that are on no horizontal surface. Thread-safe.
   void add(const CloudTile& tile);
 
   /// Observations of line i, ascending along it; those with fewer than 4 points are left out.
@@ -78,7 +78,6 @@ class LineObserver {
   std::vector<std::size_t> track_of_;  ///< per line, tracks_.size() when inactive
   std::unique_ptr<std::atomic<std::uint64_t>[]> histograms_;
   std::unique_ptr<std::atomic<std::int64_t>[]> along_;  ///< sum of micrometres from the bin's start
-  std::unique_ptr<std::atomic<std::uint32_t>[]> counts_;
   std::atomic<std::uint64_t> points_{0};
 };
 

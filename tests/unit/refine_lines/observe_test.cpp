@@ -36,6 +36,41 @@ TEST(LineObserver, TheTwoFacesOfAThinWallDoNotMix) {
   }
 }
 
+TEST(LineObserver, AThinWallWhoseInnerPointsHaveNoPlaneIsNotPushedApart) {
+  const Line2 line{0, 2.0};
+  const std::vector<LineFaces> lines{whole_line(line, 0, 4)};
+  Normal random(6);
+  CloudTile tile;
+  add_wall(tile, random, line, 0, 4, 500, 0.005);
+  for (std::size_t i = 0; i < tile.size(); ++i) {
+    if (tile.x[i] < 2.0F) {
+      tile.surface[i] = static_cast<std::uint8_t>(SurfaceClass::kNone);
+      tile.azimuth[i] = 0;
+    }
+  }
+  LineObserver observer(lines, {true}, kLevels, 0.06, 0.005);
+  observer.add(tile);
+  double sum = 0;
+  const auto found = observer.observations(0);
+  for (const Observation& o : found) {
+    sum += line.distance(o.point);
+  }
+  EXPECT_NEAR(sum / static_cast<double>(found.size()), 0, 0.0003);
+}
+
+TEST(LineObserver, PointsWithoutAPlaneBesideFloorOrCeilingAreTheirEdges) {
+  const Line2 line{0, 2.0};
+  const std::vector<LineFaces> lines{whole_line(line, 0, 4)};
+  CloudTile tile;
+  for (const double z : {0.05, 1.0, 2.45}) {
+    add_point(tile, line.at(1.0), z, 0);
+    tile.surface.back() = static_cast<std::uint8_t>(SurfaceClass::kNone);
+  }
+  LineObserver observer(lines, {true}, kLevels, 0.06, 0.005);
+  observer.add(tile);
+  EXPECT_EQ(observer.points(), 1U);
+}
+
 TEST(LineObserver, APointWithAnotherAzimuthHeightOrPlaceIsNotTaken) {
   const Line2 line{0, 1.0};
   LineFaces faces = whole_line(line, 0, 4);
