@@ -6,7 +6,7 @@ namespace roomcut {
 /// Parameters of partition (names, units, ranges and meanings: partition_parameters() in main.cpp).
 struct PartitionParams {
   double margin_m = 0.5;
-  double extend_m = 1.0;
+  double extend_m = 2.0;
   bool prune = true;
   int max_cells = 20000000;
 };

@@ -28,6 +28,7 @@ CellComplex cut(std::vector<WallLine> walls, bool prune) {
   lines.bbox_max = {20, 8};
   lines.lines = std::move(walls);
   PartitionParams params;
+  params.extend_m = 1;
   params.prune = prune;
   return partition(lines, kLevels, params).complex;
 }
@@ -74,8 +75,8 @@ TEST(Prune, KeepsEveryEdgeWithinItsLinesReach) {
           if (edge.line == static_cast<std::int32_t>(i)) {
             const double a = complex.lines[i].line.along(complex.vertices[edge.v0]);
             const double b = complex.lines[i].line.along(complex.vertices[edge.v1]);
-            length += std::max(0.0, std::min(std::max(a, b), complex.lines[i].t1 + 1) -
-                                        std::max(std::min(a, b), complex.lines[i].t0 - 1));
+            length += std::max(0.0, std::min(std::max(a, b), complex.lines[i].t1 + params.extend_m) -
+                                        std::max(std::min(a, b), complex.lines[i].t0 - params.extend_m));
           }
         }
         return length;
