@@ -59,10 +59,10 @@ std::vector<std::vector<std::int32_t>> convex_pieces(std::span<const Vec2> point
   // Longest diagonals first: they cut off the thinnest pieces.
   std::vector<std::pair<double, EdgeKey>> diagonals;
   for (const auto& [edge, polygon] : owner) {
-    if (edge[0] < edge[1] && owner.count({edge[1], edge[0]}) > 0) {
+    if (edge[0] < edge[1] && owner.contains({edge[1], edge[0]})) {
       const Vec2 along =
           points[static_cast<std::size_t>(edge[1])] - points[static_cast<std::size_t>(edge[0])];
-      diagonals.push_back({-along.squaredNorm(), edge});
+      diagonals.emplace_back(-along.squaredNorm(), edge);
     }
   }
   std::sort(diagonals.begin(), diagonals.end());

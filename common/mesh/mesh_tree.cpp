@@ -19,6 +19,42 @@ Vec3 cross(const Vec3& u, const Vec3& v) {
   return {u.y() * v.z() - u.z() * v.y(), u.z() * v.x() - u.x() * v.z(), u.x() * v.y() - u.y() * v.x()};
 }
 
+// Whether the segment of `length` along `unit` passes through the box.
+bool meets_box(const Vec3& from, const Vec3& unit, double length, const Vec3& lo, const Vec3& hi) {
+  constexpr double kSlack = 1e-9;  // flat boxes must not be missed by rounding
+  double enter = 0;
+  double leave = length;
+  for (int axis = 0; axis < 3 && enter <= leave; ++axis) {
+    if (unit[axis] == 0) {
+      if (from[axis] < lo[axis] || from[axis] > hi[axis]) {
+        return false;
+      }
+      continue;
+    }
+    const double t0 = (lo[axis] - from[axis]) / unit[axis];
+    const double t1 = (hi[axis] - from[axis]) / unit[axis];
+    enter = std::max(enter, std::min(t0, t1) - kSlack);
+    leave = std::min(leave, std::max(t0, t1) + kSlack);
+  }
+  return enter <= leave;
+}
+
+// Where the ray meets the triangle, as a distance from its start; -1 = nowhere (Möller and Trumbore 1997).
+double distance_along(const Vec3& from, const Vec3& unit, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 ab = b - a;
+  const Vec3 ac = c - a;
+  const Vec3 h = cross(unit, ac);
+  const double det = ab.dot(h);
+  if (det == 0) {
+    return -1;
+  }
+  const Vec3 s = from - a;
+  const Vec3 q = cross(s, ab);
+  const double u = s.dot(h) / det;
+  const double v = unit.dot(q) / det;
+  return u < 0 || v < 0 || u + v > 1 ? -1 : ac.dot(q) / det;
+}
+
 double box_distance2(const Vec3& p, const Vec3& lo, const Vec3& hi) {
   return (lo - p).cwiseMax(p - hi).cwiseMax(0.0).squaredNorm();
 }
@@ -207,21 +243,7 @@ MeshTree::Hit MeshTree::first_on_segment(const Vec3& from, const Vec3& direction
   stack[depth++] = 0;
   while (depth > 0) {
     const Node& node = nodes_[static_cast<std::size_t>(stack[--depth])];
-    double enter = 0;
-    double leave = best.distance;
-    for (int axis = 0; axis < 3 && enter <= leave; ++axis) {
-      if (unit[axis] == 0) {
-        if (from[axis] < node.lo[axis] || from[axis] > node.hi[axis]) {
-          leave = -1;
-        }
-        continue;
-      }
-      const double t0 = (node.lo[axis] - from[axis]) / unit[axis];
-      const double t1 = (node.hi[axis] - from[axis]) / unit[axis];
-      enter = std::max(enter, std::min(t0, t1) - 1e-9);  // flat boxes must not be missed by rounding
-      leave = std::min(leave, std::max(t0, t1) + 1e-9);
-    }
-    if (enter > leave) {
+    if (!meets_box(from, unit, best.distance, node.lo, node.hi)) {
       continue;
     }
     if (node.count == 0) {
@@ -230,23 +252,10 @@ MeshTree::Hit MeshTree::first_on_segment(const Vec3& from, const Vec3& direction
       continue;
     }
     for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-      const Item& item = items_[static_cast<std::size_t>(i)];  // Möller and Trumbore 1997
-      const Vec3 ab = item.b - item.a;
-      const Vec3 ac = item.c - item.a;
-      const Vec3 h = cross(unit, ac);
-      const double det = ab.dot(h);
-      if (det == 0) {
-        continue;
-      }
-      const Vec3 s = from - item.a;
-      const Vec3 q = cross(s, ab);
-      const double u = s.dot(h) / det;
-      const double v = unit.dot(q) / det;
-      const double t = ac.dot(q) / det;
-      if (u < 0 || v < 0 || u + v > 1 || t < skip || t > best.distance) {
-        continue;
-      }
-      if (t < best.distance || best.triangle < 0 || item.triangle < best.triangle) {
+      const Item& item = items_[static_cast<std::size_t>(i)];
+      const double t = distance_along(from, unit, item.a, item.b, item.c);
+      if (t >= skip && (t < best.distance ||
+                        (t == best.distance && (best.triangle < 0 || item.triangle < best.triangle)))) {
         best = {t, item.triangle};
       }
     }

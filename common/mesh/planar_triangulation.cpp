@@ -57,8 +57,8 @@ bool mark_inside(Cdt& cdt, const Segments& segments) {
       if (face->is_constrained(i)) {
         const std::int32_t a = face->vertex(Cdt::ccw(i))->info();  // this face lies left of a -> b
         const std::int32_t b = face->vertex(Cdt::cw(i))->info();
-        const bool here = segments.count({a, b}) > 0;
-        const bool there = segments.count({b, a}) > 0;
+        const bool here = segments.contains({a, b});
+        const bool there = segments.contains({b, a});
         if (here != there) {
           if (here != (inside == 1)) {
             return false;

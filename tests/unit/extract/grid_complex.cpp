@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <map>
+#include <string>
 #include <utility>
 
 namespace roomcut::test {
@@ -25,6 +26,9 @@ CellComplex grid_complex(const std::vector<double>& x, const std::vector<double>
     CellComplex::Line line;
     line.line =
         line_through(out.vertices[static_cast<std::size_t>(a)], out.vertices[static_cast<std::size_t>(b)]);
+    line.wall_id = "w" + std::to_string(out.lines.size());
+    line.t0 = -100;
+    line.t1 = 100;
     out.lines.push_back(line);
   };
   // Lines 0 … nx - 3 are x_1 …, after them y_1 …

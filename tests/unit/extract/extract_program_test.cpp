@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The program itself, on files: what it writes, and what it refuses.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "common/artefact/json.h"
+#include "common/cells/cells_io.h"
+#include "common/mesh/mesh_check.h"
+#include "common/mesh/mesh_io.h"
+#include "tests/unit/extract/grid_complex.h"
+
+namespace roomcut {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ExtractProgram : public testing::Test {
+ protected:
+  void SetUp() override {
+    work_ = fs::path(testing::TempDir()) / "roomcut extract ü";
+    fs::remove_all(work_);
+    fs::create_directories(work_ / "90_final");
+  }
+  void TearDown() override { fs::remove_all(work_); }
+
+  // A block of 2 x 2 cells inside a rim of solid ones; `pattern` says which of them are empty.
+  void write_inputs(const std::function<bool(const Vec2&, double)>& empty) const {
+    CellComplex complex = test::grid_complex({0, 1, 2, 3, 4}, {0, 1, 2, 3, 4}, {0, 1, 2, 3});
+    complex.frame.origin[0] = 1000;
+    complex.frame.origin[2] = 50;
+    const fs::path folder = work_ / "90_final";
+    write_cells(folder / "cells.h5", complex, {});
+    const CellsFile cells = read_cells(folder / "cells.h5");
+    const std::size_t walls = complex.edges.size() * complex.layers();
+    const std::size_t levels = complex.faces() * complex.levels.size();
+    FaceWeights weights;
+    for (auto* values : {&weights.wall_omega, &weights.wall_left, &weights.wall_right})
+      values->assign(walls, 0);
+    for (auto* values : {&weights.level_omega, &weights.level_floor, &weights.level_ceiling})
+      values->assign(levels, 0);
+    weights.wall_points.assign(walls, 0);
+    weights.level_points.assign(levels, 0);
+    weights.cell_points.assign(complex.cells(), 0);
+    write_weights(folder / "weights.h5", weights, cells, {});
+    DataTerms terms;
+    for (auto* values : {&terms.kappa, &terms.vertical, &terms.around, &terms.winding, &terms.surface_m2,
+                         &terms.observed, &terms.beta}) {
+      values->assign(complex.cells(), 0);
+    }
+    terms.d_empty.assign(complex.cells(), 0);
+    terms.d_solid.assign(complex.cells(), 0);
+    write_data_terms(folder / "data_terms.h5", terms, cells, {});
+    write_labels(folder / "labels.h5", test::label_where(complex, empty), cells, {});
+  }
+
+  int run() const {
+    const std::string command = std::string("'") + ROOMCUT_BIN_DIR + "/extract' -q --work '" +
+                                work_.string() + "' 2> '" + (work_ / "stderr").string() + "'";
+    return WEXITSTATUS(std::system(command.c_str()));
+  }
+
+  std::string errors() const {
+    std::ifstream file(work_ / "stderr");
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  }
+
+  fs::path work_;
+};
+
+bool in_the_middle(const Vec2& p, double z) {
+  return p.x() > 1 && p.x() < 3 && p.y() > 1 && p.y() < 3 && z > 1 && z < 2;
+}
+
+TEST_F(ExtractProgram, WritesAModelThatLiesOnTheScanAndTheSameBytesAgain) {
+  write_inputs(in_the_middle);
+  ASSERT_EQ(run(), 0) << errors();
+  const TriangleMesh model = read_mesh(work_ / "model.ply");
+  EXPECT_TRUE(check_mesh(model).valid());
+  EXPECT_EQ(model.triangles.size(), 12U);
+  EXPECT_EQ(model.kind.size(), 12U);
+  EXPECT_EQ(bounds(model).lo, Vec3(1001, 1, 51));
+  const TriangleMesh obj = read_mesh(work_ / "model.obj");
+  EXPECT_EQ(bounds(obj).hi, Vec3(1003, 3, 52));
+  const Json summary = read_json_artefact(work_ / "summary.json", artefacts::kSummary);
+  EXPECT_DOUBLE_EQ(summary.at("totals").at("volume_m3").get<double>(), 4);
+  EXPECT_DOUBLE_EQ(summary.at("storeys").at(0).at("floor_z_m").get<double>(), 51);
+  const std::string first = ply_bytes(model, {0, 0, 0}, {});
+  fs::remove(work_ / "model.ply");
+  ASSERT_EQ(run(), 0);
+  EXPECT_EQ(ply_bytes(read_mesh(work_ / "model.ply"), {0, 0, 0}, {}), first);
+}
+
+TEST_F(ExtractProgram, SurfacesThatTouchAreN06AndTheMeshIsKeptAsEvidence) {
+  write_inputs(in_the_middle);
+  ASSERT_EQ(run(), 0) << errors();
+  write_inputs([](const Vec2& p, double z) { return in_the_middle(p, z) && (p.x() < 2) == (p.y() < 2); });
+  EXPECT_EQ(run(), 4);
+  EXPECT_NE(errors().find("error[N06]"), std::string::npos) << errors();
+  EXPECT_TRUE(fs::exists(work_ / "model.rejected.ply"));
+  EXPECT_EQ(read_mesh(work_ / "model.ply").triangles.size(), 12U) << "the model of before is not lost";
+  write_inputs(in_the_middle);
+  ASSERT_EQ(run(), 0) << errors();
+  EXPECT_FALSE(fs::exists(work_ / "model.rejected.ply"));
+}
+
+TEST_F(ExtractProgram, NoEmptyCellIsN05AndLeavesNothing) {
+  write_inputs([](const Vec2&, double) { return false; });
+  EXPECT_EQ(run(), 4);
+  EXPECT_NE(errors().find("error[N05]"), std::string::npos) << errors();
+  EXPECT_FALSE(fs::exists(work_ / "model.ply"));
+}
+
+TEST_F(ExtractProgram, MissingLabelsAreA01) {
+  write_inputs(in_the_middle);
+  fs::remove(work_ / "90_final/labels.h5");
+  EXPECT_EQ(run(), 3);
+  EXPECT_NE(errors().find("error[A01]"), std::string::npos) << errors();
+}
+
+}  // namespace
+}  // namespace roomcut
