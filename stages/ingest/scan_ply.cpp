@@ -209,7 +209,7 @@ std::unique_ptr<ScanReader> open_ply(const std::shared_ptr<const ScanFile>& file
   }
   const std::uint64_t first = skip_elements(*file, header);
   const std::uint64_t smallest = std::max<std::uint64_t>(1, vertex.smallest_record());
-  if (vertex.count > (file->size() - first) / smallest) {
+  if (vertex.has_list() && vertex.count > (file->size() - first) / smallest) {
     truncated(*file, vertex, "at most " + std::to_string((file->size() - first) / smallest));
   }
   if (vertex.has_list()) {

@@ -12,6 +12,7 @@ namespace roomcut {
 
 namespace {
 
+constexpr int kLast = fixed_grid::kLevels - 1;
 constexpr std::uint32_t kFewest = 6;  // points for a plane and an idea of its scatter
 constexpr std::uint32_t kParentHas =
     48;  // a level is fine enough when its parent's neighbourhood holds so many:
@@ -20,8 +21,8 @@ constexpr std::uint32_t kParentHas =
 constexpr std::uint32_t kWellFilled = 20;  // points for a noise estimate
 constexpr double kClearPlane = 0.15;       // lambda0 / lambda1 for a noise estimate
 constexpr double kLineShare = 0.01;  // lambda1 below this share of the neighbourhood's edge squared: a line
-
-/// Area of the whole plane inside the neighbourhood's cube [m^2].
+constexpr double kLargestTilt =
+    0.0027;  // (3 degrees)^2: a less certain direction is asked from a coarser voxel
 double whole_area(const Plane& plane, SurfaceClass surface, const Spread& spread, double units_per_edge,
                   double edge_m) {
   const std::array<double, 3>& n = plane.normal;
@@ -39,6 +40,45 @@ int viewing_axis(const std::array<double, 3>& n) {
   const double y = std::abs(n[1]);
   const double z = std::abs(n[2]);
   return z >= std::max(x, y) ? 2 : (y >= x ? 1 : 0);
+}
+
+/// Where the points leave the plane or its direction in doubt, as noise and small numbers do, the next
+/// coarser voxel decides, if it sees a plane more clearly. A plane that chance may have made and that it does
+/// not see is none.
+template <class SurfaceAt>
+void settle(VoxelSurface& chosen, int& level, const SurfaceAt& surface_at) {
+  while (level < kLast && (chosen.undecided || chosen.tilt_variance > kLargestTilt)) {
+    const VoxelSurface coarser = surface_at(level + 1);
+    if (coarser.surface == SurfaceClass::kNone || coarser.tilt_variance >= chosen.tilt_variance) {
+      if (chosen.undecided) {
+        chosen.surface = SurfaceClass::kNone;
+        chosen.azimuth = 0;
+        chosen.noise = 0;
+      }
+      return;
+    }
+    chosen = coarser;
+    ++level;
+  }
+}
+
+/// Area per point where a neighbourhood has holes. Holes that a coarser voxel does not see are gaps between
+/// scan lines: then its area counts, or better that of the next one, since three lines in three cells are
+/// more than a fair share. Holes at every level are the border of a surface.
+template <class SurfaceAt>
+float area_over_gaps(const VoxelSurface& chosen, int level, const SurfaceAt& surface_at) {
+  float area = chosen.area;
+  int whole = 0;
+  for (int coarser = level + 1; coarser <= kLast && whole < 2; ++coarser) {
+    const VoxelSurface surface = surface_at(coarser);
+    if (surface.surface == chosen.surface && surface.whole) {
+      area = surface.area;
+      ++whole;
+    } else if (whole > 0) {
+      break;
+    }
+  }
+  return area;
 }
 
 void accumulate(const VoxelLevel& level, std::uint16_t z, Neighbourhood& around, NeighbourSum& sum) {
@@ -63,7 +103,13 @@ VoxelSurface surface_of(const NeighbourSum& sum, const std::array<std::uint64_t,
   const Spread spread = spread_of(sum.moments, sum.points, centre);
   const Plane plane = plane_of(spread);
   result.resolved = plane.lambda1 > kLineShare * 9 * edge * edge;
-  if (!result.resolved || plane.lambda0 >= params.planar_ratio * plane.lambda1) {
+  if (!result.resolved) {
+    return result;
+  }
+  const double ratio = plane.lambda0 / plane.lambda1;
+  result.tilt_variance = static_cast<float>(ratio / n);
+  result.undecided = std::abs(ratio / params.planar_ratio - 1) < 2 / std::sqrt(n);  // two standard deviations
+  if (ratio >= params.planar_ratio) {
     return result;
   }
   result.surface = class_of_slope(std::abs(plane.normal[2]), params);
@@ -75,7 +121,7 @@ VoxelSurface surface_of(const NeighbourSum& sum, const std::array<std::uint64_t,
   result.whole = covered.whole;
   result.area = static_cast<float>(whole_area(plane, result.surface, spread, edge, voxel_edge_m) *
                                    covered.cells / (9 * n));
-  if (sum.points >= kWellFilled && plane.lambda0 < kClearPlane * plane.lambda1) {
+  if (sum.points >= kWellFilled && ratio < kClearPlane) {
     const double sigma = std::sqrt(plane.lambda0 * n / (n - 3)) * unit_m;  // three parameters were fitted
     result.noise = static_cast<float>(std::max(sigma, 1e-6));              // exact planes count as well
   }
@@ -99,7 +145,6 @@ const VoxelSurface& SurfaceFinder::at_coarse(const TileGrid& grid, const UnitSca
 
 VoxelSurface SurfaceFinder::choose(const TileGrid& grid, const UnitScale& scale, std::uint32_t voxel, int ix,
                                    int iy, Neighbourhood& around) {
-  constexpr int kLast = fixed_grid::kLevels - 1;
   std::array<std::uint32_t, fixed_grid::kLevels> ancestor{voxel};
   for (int i = 0; i < kLast; ++i) {
     const auto k = static_cast<std::size_t>(i);
@@ -127,15 +172,9 @@ VoxelSurface SurfaceFinder::choose(const TileGrid& grid, const UnitScale& scale,
   while (!chosen.resolved && level < kLast) {
     chosen = surface_at(++level);
   }
+  settle(chosen, level, surface_at);
   if (chosen.surface != SurfaceClass::kNone && !chosen.whole) {
-    for (int coarser = level + 1; coarser <= kLast; ++coarser) {
-      const VoxelSurface surface = surface_at(coarser);
-      if (surface.surface == chosen.surface &&
-          surface.whole) {  // the holes are gaps between scan lines, no border
-        chosen.area = surface.area;
-        break;
-      }
-    }
+    chosen.area = area_over_gaps(chosen, level, surface_at);
   }
   return chosen;
 }

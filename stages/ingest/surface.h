@@ -15,9 +15,11 @@ namespace roomcut {
 struct VoxelSurface {
   SurfaceClass surface = SurfaceClass::kNone;
   std::uint8_t azimuth = 0;
-  bool resolved = false;  ///< enough points, and not all on one line: coarser voxels need not be asked
-  bool whole = false;     ///< no holes in the neighbourhood but by chance
-  float area = 0;         ///< area per point [m^2]
+  bool resolved = false;    ///< enough points, and not all on one line: coarser voxels need not be asked
+  bool whole = false;       ///< no holes in the neighbourhood but by chance
+  bool undecided = false;   ///< chance alone may have put the plane test on this side
+  float tilt_variance = 0;  ///< of the plane's direction, lambda0 / (n lambda1) [rad^2]
+  float area = 0;           ///< area per point [m^2]
   float noise =
       0;  ///< standard deviation off the plane; 0 when the voxel is not well filled or no clear plane [m]
 };
@@ -51,6 +53,7 @@ class SurfaceFinder {
   };
   const VoxelSurface& at_coarse(const TileGrid& grid, const UnitScale& scale, int level, std::uint32_t voxel,
                                 int ix, int iy);
+  /// The surface of voxel `voxel` at its own level 0 or at that of one of its ancestors.
   VoxelSurface choose(const TileGrid& grid, const UnitScale& scale, std::uint32_t voxel, int ix, int iy,
                       Neighbourhood& around);
 

@@ -140,7 +140,7 @@ class Sniffer {
     layout_.normals = std::find(layout_.fields.begin(), layout_.fields.end(), 3) != layout_.fields.end();
     return layout_;
   }
-  bool saw_header() const { return header_lines_ > 0 || layout_.promised || comments_ > 0; }
+  bool saw_header() const { return named_ || layout_.promised || comments_ > 0; }
   [[noreturn]] void refuse(const std::string& what,
                            const std::string& hint = "give PLY, or text with x y z on each line") const {
     throw StageError(errors::kScanFormat, file_.name(), what, hint);
@@ -164,6 +164,7 @@ class Sniffer {
     }
     if (std::vector<int> fields = fields_of_names(line); !fields.empty()) {
       layout_.fields = std::move(fields);
+      named_ = true;
     }
   }
 
@@ -201,6 +202,7 @@ class Sniffer {
   TextLayout layout_;
   int header_lines_ = 0;
   int comments_ = 0;
+  bool named_ = false;
 };
 
 }  // namespace
@@ -229,7 +231,7 @@ TextLayout sniff_text(const ScanFile& file) {
     }
     begin = end + 1;
   }
-  if (sniffer.saw_header() && file.size() <= kSniffed && sniffer.finish().fields.size() >= 3) {
+  if (sniffer.saw_header() && file.size() <= kSniffed) {
     throw StageError(errors::kScanNoPoints, file.name(),
                      "there are header or comment lines and not one point", "export the scan again");
   }

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/cloud/cloud_io.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <mutex>
+
+#include "common/errors/error.h"
+
+namespace roomcut {
+namespace {
+
+class CloudIo : public ::testing::Test {
+ protected:
+  CloudIo() { std::filesystem::create_directories(folder_); }
+  ~CloudIo() override { std::filesystem::remove_all(folder_); }
+  std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("roomcut_cloud_" + std::to_string(::getpid()));
+  std::filesystem::path path_ = folder_ / "cloud.h5";
+};
+
+CloudTile tile_of(std::size_t points, float first) {
+  CloudTile tile;
+  for (std::size_t i = 0; i < points; ++i) {
+    const auto value = first + static_cast<float>(i);
+    tile.x.push_back(value);
+    tile.y.push_back(-2 * value);
+    tile.z.push_back(0.5F);
+    tile.surface.push_back(static_cast<std::uint8_t>(i % 4));
+    tile.azimuth.push_back(static_cast<std::uint8_t>(i % 256));
+    tile.area.push_back(0.001F * value);
+  }
+  return tile;
+}
+
+CloudHeader header_for(const std::vector<CloudTile>& tiles) {
+  CloudHeader header;
+  header.frame.origin[0] = 4'500'000;
+  header.frame.unit = "cm";
+  header.frame.up = "-y";
+  header.tile_edge_m = 6.4;
+  header.voxel_edge_m = 0.05;
+  header.stations = {Vec3(1, 2, 3), Vec3(4, 5, 6.5)};
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    header.points += tiles[i].size();
+    header.tile_ix.push_back(static_cast<std::int32_t>(i) - 3);
+    header.tile_iy.push_back(static_cast<std::int32_t>(i) + 7);
+  }
+  return header;
+}
+
+void write(const std::filesystem::path& path, const std::vector<CloudTile>& tiles) {
+  CloudWriter writer(path, Provenance{"ingest", 1, "{}", "", {}}, header_for(tiles));
+  for (const CloudTile& tile : tiles) {
+    writer.append(tile);
+  }
+  writer.header().noise_m = 0.004;
+  writer.header().density = 1234.5;
+  writer.finish();
+}
+
+TEST_F(CloudIo, gives_back_what_was_written) {
+  const std::vector<CloudTile> tiles{tile_of(5, 1), tile_of(0, 0), tile_of(1000, 10)};
+  write(path_, tiles);
+  const CloudReader reader(path_);
+  const CloudHeader& header = reader.header();
+  EXPECT_EQ(header.points, 1005U);
+  EXPECT_EQ(header.frame.origin[0], 4'500'000);
+  EXPECT_EQ(header.frame.unit, "cm");
+  EXPECT_EQ(header.frame.up, "-y");
+  EXPECT_EQ(header.noise_m, 0.004);
+  EXPECT_EQ(header.density, 1234.5);
+  EXPECT_EQ(header.tile_edge_m, 6.4);
+  EXPECT_EQ(header.voxel_edge_m, 0.05);
+  EXPECT_EQ(header.tile_ix, (std::vector<std::int32_t>{-3, -2, -1}));
+  EXPECT_EQ(header.tile_iy, (std::vector<std::int32_t>{7, 8, 9}));
+  EXPECT_EQ(header.tile_offset, (std::vector<std::uint64_t>{0, 5, 5, 1005}));
+  EXPECT_EQ(header.bbox_min, Vec3(1, -2018, 0.5));
+  EXPECT_EQ(header.bbox_max, Vec3(1009, -2, 0.5));
+  ASSERT_EQ(header.stations.size(), 2U);
+  EXPECT_EQ(header.stations[1], Vec3(4, 5, 6.5));
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    CloudTile tile;
+    reader.read_tile(i, tile);
+    EXPECT_EQ(tile.x, tiles[i].x);
+    EXPECT_EQ(tile.y, tiles[i].y);
+    EXPECT_EQ(tile.z, tiles[i].z);
+    EXPECT_EQ(tile.surface, tiles[i].surface);
+    EXPECT_EQ(tile.azimuth, tiles[i].azimuth);
+    EXPECT_EQ(tile.area, tiles[i].area);
+  }
+}
+
+TEST_F(CloudIo, visits_every_tile_once) {
+  const std::vector<CloudTile> tiles(40, tile_of(100, 1));
+  write(path_, tiles);
+  std::mutex mutex;
+  std::vector<int> visits(40, 0);
+  std::uint64_t points = 0;
+  CloudReader(path_).for_each_tile(
+      [&](std::size_t i, const CloudTile& tile) {
+        const std::scoped_lock lock(mutex);
+        ++visits[i];
+        EXPECT_EQ(tile.size(), 100U);
+      },
+      [&](std::uint64_t done) {
+        const std::scoped_lock lock(mutex);
+        points += done;
+      });
+  EXPECT_EQ(visits, std::vector<int>(40, 1));
+  EXPECT_EQ(points, 4000U);
+}
+
+TEST_F(CloudIo, writes_equal_clouds_to_equal_bytes) {
+  const std::vector<CloudTile> tiles{tile_of(500, 1)};
+  write(path_, tiles);
+  write(folder_ / "again.h5", tiles);
+  const auto bytes = [](const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  EXPECT_EQ(bytes(path_), bytes(folder_ / "again.h5"));
+  EXPECT_LE(static_cast<double>(std::filesystem::file_size(path_)), 20 * 500 + 20'000);
+}
+
+TEST_F(CloudIo, holds_an_empty_cloud) {
+  write(path_, {});
+  const CloudReader reader(path_);
+  EXPECT_EQ(reader.tiles(), 0U);
+  EXPECT_EQ(reader.header().points, 0U);
+}
+
+TEST_F(CloudIo, refuses_to_publish_less_than_promised) {
+  const std::vector<CloudTile> tiles{tile_of(5, 1), tile_of(5, 1)};
+  {
+    CloudWriter writer(path_, Provenance{"ingest", 1, "{}", "", {}}, header_for(tiles));
+    writer.append(tiles[0]);
+    EXPECT_THROW(writer.finish(), std::logic_error);
+  }
+  EXPECT_FALSE(std::filesystem::exists(path_));
+}
+
+TEST_F(CloudIo, refuses_missing_and_damaged_files) {
+  const auto code = [](const std::filesystem::path& path) -> std::string {
+    try {
+      const CloudReader reader(path);
+    } catch (const StageError& error) {
+      return error.problems().front().code.id;
+    }
+    return "";
+  };
+  EXPECT_EQ(code(folder_ / "absent.h5"), "A01");
+  std::ofstream(path_) << "no HDF5 at all";
+  EXPECT_EQ(code(path_), "A02");
+  write(folder_ / "cut.h5", {tile_of(5000, 1)});
+  std::filesystem::resize_file(folder_ / "cut.h5", std::filesystem::file_size(folder_ / "cut.h5") / 2);
+  EXPECT_EQ(code(folder_ / "cut.h5"), "A02");
+}
+
+}  // namespace
+}  // namespace roomcut
