@@ -70,7 +70,7 @@ starts_with() { # ran first word … and nothing that is not in the list
   return 1
 }
 digests() { # of all results, for comparing two runs; logs, stamps and params hold times
-  (cd "$1" && find . -type f \( -name '*.h5' -o -name '*.geojson' -o -name 'model.*' -o -name summary.json -o -name report.html \) \
+  (cd "$1" && find . -type f \( -name '*.h5' -o -name '*.geojson' -o -path './model.*' -o -name summary.json -o -name report.html \) \
     -not -path './edits/*' -exec sha256sum {} + | sort -k 2)
 }
 no_left_overs() { [ -z "$(find "$work" -name '.*.tmp' -o -name '*.new')" ]; }

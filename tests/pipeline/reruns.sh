@@ -63,9 +63,9 @@ printf 'graphcut:\n  mu_m: 0.3\n' > "$config"
 mk run
 
 mark
-printf 'accept_lines:\nslice:\n  %s\ngraphcut:\n  mu_m: 0.3\n' "$(cat "$place/equal_param" 2> /dev/null || echo '{}')" > "$config"
+printf 'accept_lines:\ndetect_lines:\n  max_gap_m: 3.25\ngraphcut:\n  mu_m: 0.3\n' > "$config"
 mk run
-check "an empty block more runs nothing" ran_exactly ""
+check "a parameter changed and the payload equal: that stage only" ran_exactly "detect_lines"
 
 mark
 check "rerun of a stage with the same outcome" mk rerun-slice
@@ -129,10 +129,14 @@ mk run
 check "the edit put right: accept_lines runs, nothing else" ran_exactly "accept_lines"
 
 mark
-printf 'detect_lines:\n  %s\ngraphcut:\n  mu_m: 0.3\n' "${DETECT_CHANGE:-min_length_m: 0.9}" > "$config"
+cp "$work/model.ply" "$place/model_of_edit"
+printf 'detect_lines:\n  min_support_m: 4.5\ngraphcut:\n  mu_m: 0.3\n' > "$config"
 check "detection changed under an edit" mk run
 check "… reruns detection" starts_with detect_lines
+check "… and the model stays" cmp "$work/model.ply" "$place/model_of_edit"
 check "… the edit stays" cmp "$edit" "$place/good_edit"
+grep -q 'warning: accept_lines: .*the detection changed' "$output" && ok "… with a warning" || not_ok "… with a warning" "$(cat "$output")"
+grep -q 'only the edit has' "$output" && ok "… that lists what differs" || not_ok "… that lists what differs" "$(cat "$output")"
 printf 'graphcut:\n  mu_m: 0.3\n' > "$config"
 mk run
 
@@ -170,11 +174,12 @@ digests "$work" > "$place/now"
 check "… with the same bytes" cmp "$place/first" "$place/now"
 
 check "verify finds all in order" mk verify
-size=$(stat -c %s "$work/50_partition/cells.h5")
-head -c 200 /dev/zero | dd of="$work/50_partition/cells.h5" bs=1 seek=$((size - size / 10 - 200)) conv=notrunc 2> /dev/null
+size=$(stat -c %s "$work/10_ingest/cloud.h5")
+head -c 200 /dev/zero | dd of="$work/10_ingest/cloud.h5" bs=1 seek=$((size / 2)) conv=notrunc 2> /dev/null
 mk verify && not_ok "verify finds a changed byte" || ok "verify finds a changed byte"
-rm "$work/50_partition/cells.h5"
+rm "$work/10_ingest/cloud.h5"
 mk run
+check "… and the file made again is in order" mk verify
 
 mark
 mk status
