@@ -46,7 +46,7 @@ deps:
 	@sh .ci/install-packages.sh
 
 build: deps
-	@[ -f "$$BUILD/CMakeCache.txt" ] || cmake -S . -B "$$BUILD" $(generator)
+	@[ -f "$$BUILD/CMakeCache.txt" ] || cmake -S . -B "$$BUILD" $(generator) $(CMAKE_ARGS)
 	@cmake --build "$$BUILD"
 
 test: build
