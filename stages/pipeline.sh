@@ -270,8 +270,16 @@ case $command in
   plot)
     refresh
     rules "$1"
-    "$BIN/report" --work . --params params/report.json ${QUIET:+-q}
-    echo "pictures:"
-    ls -d "$WORK"/pictures/* ;;
+    # Some stages are seen best in the picture of another one.
+    case $1 in
+      ingest) only=ingest files=cloud ;;
+      slice) only=slice files=slice ;;
+      detect_lines | accept_lines) only=detect_lines files=detect_lines ;;
+      partition | weigh_faces | raycast | graphcut) only=graphcut files=cells ;;
+      refine_lines | final_*) only=refine_lines files=refine_lines ;;
+      *) only=extract files=model ;;
+    esac
+    "$BIN/report" --work . --params params/report.json --only $only --log logs/plot.json -q
+    ls "$WORK"/pictures/$files* ;;
   *) fail "pipeline.sh: no command $command" "see make help" ;;
 esac

@@ -91,13 +91,14 @@ class Artefacts(unittest.TestCase):
 
     def test_no_artefact_names_this_machine(self):
         marks = [self.folder.name.encode(), SOURCE.encode(), os.uname().nodename.encode()]
+        marks = [mark for mark in marks if len(mark) > 5]  # a host called "vm" stands in any megabyte by chance
         endings = (".h5", ".geojson", "model.ply", "model.obj", "summary.json")
         for ending in endings:
             for path in self.files(ending):
                 with open(path, "rb") as data:
                     content = data.read()
                 for mark in marks:
-                    self.assertNotIn(mark, content, path)
+                    self.assertFalse(mark in content, f"{path} holds {mark}")
 
     def test_provenance_chains_from_the_model_back_to_the_scan(self):
         with open(os.path.join(self.work, "summary.json"), encoding="utf-8") as text:

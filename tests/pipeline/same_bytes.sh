@@ -49,7 +49,9 @@ fi
 cd / || exit 1
 
 # Nothing of this machine in an artefact.
-found=$(cd "$work" && grep -lF -e "$place" -e "$(hostname)" -e "räume 1" -r --include='*.h5' --include='*.geojson' --include='*.ply' --include='*.obj' --include=summary.json . |
+host=$(uname -n)
+[ ${#host} -gt 5 ] || host=$place  # a host called "vm" stands in any megabyte by chance
+found=$(cd "$work" && grep -lF -e "$place" -e "$host" -e "räume 1" -r --include='*.h5' --include='*.geojson' --include='*.ply' --include='*.obj' --include=summary.json . |
   grep -v 10_ingest || true)
 if [ -z "$found" ]; then ok "no path and no host in any artefact"; else not_ok "a path or host in an artefact" "$found"; fi
 finish
