@@ -5,6 +5,9 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
+
+#include "stages/slice/surface_graph.h"
 
 namespace roomcut {
 namespace {
@@ -67,7 +70,9 @@ Density density_of(const std::vector<SurfaceCell>& cells, double bandwidth) {
 }
 
 struct Peak {
-  std::size_t top, lo, hi;  ///< indices into the density; the basin is [lo, hi]
+  std::size_t top = 0, lo = 0, hi = 0;   ///< indices into the density; the basin is [lo, hi]
+  double area_m2 = 0, drift_moment = 0;  ///< of the cells in the basin
+  double drift() const { return area_m2 > 0 ? drift_moment / area_m2 : 0; }
 };
 
 /// Every local maximum with the minima beside it: the fixed points of mean shift and what flows to them.
@@ -77,7 +82,7 @@ std::vector<Peak> peaks_of(const std::vector<double>& value) {
   bool rising = true;
   for (std::size_t i = 1; i < value.size(); ++i) {
     if (rising && value[i] < value[i - 1]) {
-      peaks.push_back({i - 1, valley, value.size() - 1});
+      peaks.push_back({i - 1, valley, value.size() - 1, 0, 0});
       rising = false;
     } else if (!rising && value[i] > value[i - 1]) {
       valley = i - 1;
@@ -88,19 +93,40 @@ std::vector<Peak> peaks_of(const std::vector<double>& value) {
   return peaks;
 }
 
-/// Joins modes that are nearer than `separation`, the closest pair first; the higher one stays.
-void join_near(std::vector<Peak>& peaks, const std::vector<double>& value, double separation) {
-  const auto apart = static_cast<std::size_t>(separation / kStep);
+void fill_basins(std::vector<Peak>& peaks, const Density& density, const std::vector<SurfaceCell>& cells) {
+  for (const SurfaceCell& cell : cells) {
+    const std::size_t i = density.index(cell.z);
+    const auto basin = std::lower_bound(peaks.begin(), peaks.end(), i,
+                                        [](const Peak& p, std::size_t at) { return p.hi < at; });
+    if (basin == peaks.end()) continue;
+    basin->area_m2 += cell.area_m2;
+    basin->drift_moment += cell.area_m2 * cell.drift_m;
+  }
+}
+
+/// Joins modes, the most alike pair first; the higher one stays. Two modes are one when the valley between
+/// them is hardly lower than the lower one (strips of a vault, ripples of a drifting floor) or when they are
+/// nearer than max(2.5 cm, 4 noise) or than both drift.
+void join_modes(std::vector<Peak>& peaks, const std::vector<double>& value, double noise_m) {
+  constexpr double kShallow = 0.7;
+  const double separation = std::max(0.025, 4 * noise_m);
+  const auto likeness = [&](const Peak& a, const Peak& b) {  // 1 and more: one mode
+    const double apart = static_cast<double>(b.top - a.top) * kStep;
+    const double near = std::max(separation, std::min(a.drift(), b.drift())) / apart;
+    const double shallow = value[a.hi] / std::min(value[a.top], value[b.top]) / kShallow;
+    return std::max(near, shallow);
+  };
   while (peaks.size() > 1) {
-    std::size_t nearest = 0;
+    std::size_t most = 0;
     for (std::size_t i = 1; i + 1 < peaks.size(); ++i) {
-      if (peaks[i + 1].top - peaks[i].top < peaks[nearest + 1].top - peaks[nearest].top) nearest = i;
+      if (likeness(peaks[i], peaks[i + 1]) > likeness(peaks[most], peaks[most + 1])) most = i;
     }
-    Peak& a = peaks[nearest];
-    const Peak& b = peaks[nearest + 1];
-    if (b.top - a.top >= apart) return;
-    a = {value[b.top] > value[a.top] ? b.top : a.top, a.lo, b.hi};
-    peaks.erase(peaks.begin() + static_cast<std::ptrdiff_t>(nearest) + 1);
+    Peak& a = peaks[most];
+    const Peak& b = peaks[most + 1];
+    if (likeness(a, b) < 1) return;
+    a = {value[b.top] > value[a.top] ? b.top : a.top, a.lo, b.hi, a.area_m2 + b.area_m2,
+         a.drift_moment + b.drift_moment};
+    peaks.erase(peaks.begin() + static_cast<std::ptrdiff_t>(most) + 1);
   }
 }
 
@@ -119,21 +145,91 @@ std::size_t flat_end(const Density& density, std::size_t top, std::size_t limit,
   return i;
 }
 
-Level measure(const HeightSurvey& survey, const std::vector<SurfaceCell>& cells, double lo, double hi,
-              double raster_m) {
+using Plan = std::set<std::pair<std::int32_t, std::int32_t>>;  ///< plan cells (iy, ix) of kUprightPlan
+
+/// The plan cells in which surfaces lie, with their neighbours.
+Plan plan_of(const std::vector<SurfaceComponent>& surfaces, double raster_m) {
+  Plan plan;
+  const double scale = raster_m / kUprightPlan;
+  for (const SurfaceComponent& surface : surfaces) {
+    for (const SurfaceCell& cell : surface.cells) {
+      const auto ix = static_cast<std::int32_t>(std::floor((cell.ix + 0.5) * scale));
+      const auto iy = static_cast<std::int32_t>(std::floor((cell.iy + 0.5) * scale));
+      for (std::int32_t dy = -1; dy <= 1; ++dy) {
+        for (std::int32_t dx = -1; dx <= 1; ++dx) plan.insert({iy + dy, ix + dx});
+      }
+    }
+  }
+  return plan;
+}
+
+/// A level that may still turn out to be furniture.
+struct Candidate {
   Level level;
-  double area = 0, moment = 0;
+  std::vector<SurfaceComponent> surfaces;
+};
+
+Candidate measure(const HeightSurvey& survey, const std::vector<SurfaceCell>& cells, const HeightMode& mode) {
+  Candidate candidate;
+  Level& level = candidate.level;
+  double moment = 0;
   for (const SurfacePatch& patch : survey.patches) {
-    if (patch.z < lo || patch.z > hi) continue;
-    area += patch.area_m2;
+    if (patch.z < mode.lo || patch.z > mode.hi) continue;
+    level.area_m2 += patch.area_m2;
     moment += patch.area_m2 * patch.z;
   }
-  level.lo = lo;
-  level.hi = hi;
-  level.area_m2 = area;
-  level.z = area > 0 ? moment / area : 0.5 * (lo + hi);
-  level.component_m2 = largest_component_m2(cells, lo, hi, raster_m);
-  return level;
+  level.lo = mode.lo;
+  level.hi = mode.hi;
+  level.z = level.area_m2 > 0 ? moment / level.area_m2 : mode.z;
+  candidate.surfaces = components(cells, mode.lo, mode.hi, survey.raster_m);
+  if (!candidate.surfaces.empty()) level.component_m2 = candidate.surfaces.front().area_m2;
+  return candidate;
+}
+
+/// Area of walls in the 30 cm over (+1) or under (-1) a level, where it has surface.
+double walls_beside(const Candidate& candidate, const std::vector<UprightBlock>& upright, double raster_m,
+                    int side) {
+  const Plan plan = plan_of(candidate.surfaces, raster_m);
+  double area = 0;
+  for (const UprightBlock& block : upright) {
+    const double away = side * ((block.iz + 0.5) * kUprightHeight - candidate.level.z);
+    if (away > 0.05 && away < 0.30 && plan.contains({block.iy, block.ix})) area += block.area_m2;
+  }
+  return area;
+}
+
+/// Walls stand on a floor and end at a ceiling.
+bool is_floor(const Candidate& candidate, const HeightSurvey& survey) {
+  return walls_beside(candidate, survey.upright, survey.raster_m, +1) >
+         walls_beside(candidate, survey.upright, survey.raster_m, -1);
+}
+
+/// Whether all large surfaces of a candidate are furniture on a larger floor among the others.
+bool only_furniture(const Candidate& candidate, const std::vector<Candidate>& all, const HeightSurvey& survey,
+                    const std::vector<SurfaceCell>& cells, double smallest) {
+  const auto stands_on = [&](const SurfaceComponent& surface) {
+    return std::any_of(all.begin(), all.end(), [&](const Candidate& other) {
+      return other.level.area_m2 > candidate.level.area_m2 && other.level.component_m2 >= smallest &&
+             is_furniture(surface, other.level, cells, survey.raster_m) && is_floor(other, survey);
+    });
+  };
+  return std::all_of(
+      candidate.surfaces.begin(), candidate.surfaces.end(),
+      [&](const SurfaceComponent& surface) { return surface.area_m2 < smallest || stands_on(surface); });
+}
+
+/// How far area goes on beyond a level, given outwards from it per height bin [m]; 0 when it is too little to
+/// count.
+double reach_beyond(const std::map<std::int32_t, double>& beyond, double total) {
+  double sum = 0;
+  for (const auto& [bin, area] : beyond) sum += area;
+  if (sum < std::max(1.0, 0.02 * total)) return 0;
+  double left = sum;
+  for (const auto& [bin, area] : beyond) {
+    left -= area;
+    if (left < 0.01 * sum) return (bin + 1) * kUprightHeight;
+  }
+  return 0;
 }
 
 }  // namespace
@@ -141,18 +237,12 @@ Level measure(const HeightSurvey& survey, const std::vector<SurfaceCell>& cells,
 std::vector<HeightMode> height_modes(const std::vector<SurfaceCell>& cells, const LevelRules& rules) {
   const Density density = density_of(cells, rules.bandwidth_m);
   std::vector<Peak> peaks = peaks_of(density.value);
-  join_near(peaks, density.value, std::max(0.025, 4 * rules.noise_m));
+  fill_basins(peaks, density, cells);
+  join_modes(peaks, density.value, rules.noise_m);
   std::vector<HeightMode> modes;
   for (const Peak& peak : peaks) {
-    double sum = 0, drift = 0;
-    for (const SurfaceCell& cell : cells) {
-      const std::size_t i = density.index(cell.z);
-      if (i < peak.lo || i > peak.hi) continue;
-      sum += cell.area_m2;
-      drift += cell.area_m2 * cell.drift_m;
-    }
-    if (sum < 0.5) continue;
-    drift /= sum;
+    if (peak.area_m2 < 0.5) continue;
+    const double drift = peak.drift();
     const double reach = std::max({0.04, 6 * rules.noise_m, 2.5 * drift});
     const std::size_t lo = flat_end(density, peak.top, peak.lo, -1, reach);
     const std::size_t hi = flat_end(density, peak.top, peak.hi, +1, reach);
@@ -163,44 +253,82 @@ std::vector<HeightMode> height_modes(const std::vector<SurfaceCell>& cells, cons
 
 std::vector<Level> find_levels(const HeightSurvey& survey, const std::vector<SurfaceCell>& cells,
                                const LevelRules& rules, std::vector<Level>* rejected) {
-  std::vector<Level> candidates;
+  std::vector<Candidate> candidates;
   double largest = 0;
   for (const HeightMode& mode : height_modes(cells, rules)) {
-    candidates.push_back(measure(survey, cells, mode.lo, mode.hi, rules.raster_m));
-    largest = std::max(largest, candidates.back().component_m2);
+    candidates.push_back(measure(survey, cells, mode));
+    largest = std::max(largest, candidates.back().level.component_m2);
   }
   const double smallest = std::max(0.5, std::min(rules.min_component_m2, 0.5 * largest));
   std::vector<Level> levels;
-  for (const Level& level : candidates) {
-    if (level.component_m2 >= smallest) {
-      levels.push_back(level);
+  for (const Candidate& candidate : candidates) {
+    if (candidate.level.component_m2 >= smallest &&
+        !only_furniture(candidate, candidates, survey, cells, smallest)) {
+      levels.push_back(candidate.level);
     } else if (rejected != nullptr) {
-      rejected->push_back(level);
+      rejected->push_back(candidate.level);
     }
   }
   return levels;
 }
 
-void add_caps(std::vector<Level>& levels, const VerticalHistogram& upright, double reach_m) {
-  if (levels.empty()) return;
-  double total = 0;
-  for (const double area : upright.area_m2) total += area;
-  const double stray = std::min(1.0, 0.01 * total);
-  const auto end = [&](auto first, auto last) {
-    double beyond = 0;
-    for (auto it = first; it != last; ++it) {
-      beyond += *it;
-      if (beyond > stray) return static_cast<double>(it - first);
-    }
-    return static_cast<double>(last - first);
+bool is_furniture(const SurfaceComponent& surface, const Level& floor, const std::vector<SurfaceCell>& cells,
+                  double raster_m) {
+  constexpr double kLargest = 12, kLowest = 0.25, kHighest = 1.3, kWidest = 1.6, kOpen = 0.4;
+  constexpr double kOverFloor = 0.25;
+  double z = 0;
+  for (const SurfaceCell& cell : surface.cells) z += cell.z / static_cast<double>(surface.cells.size());
+  if (z < floor.z + kLowest || z > floor.z + kHighest) return false;
+  const CellIndex own(surface.cells);
+  const CellIndex all(cells);
+  const auto radius = std::max(2, static_cast<std::int32_t>(std::ceil(0.35 / raster_m)));
+  std::size_t border = 0, open = 0, over_floor = 0;
+  for (const SurfaceCell& cell : surface.cells) {
+    if (all.any_near(cell.ix, cell.iy, 0, floor.lo, floor.hi)) ++over_floor;
+    const std::int32_t step = reach_of(cell, raster_m);
+    const auto inside = [&](std::int32_t dx, std::int32_t dy) {
+      return own.any_near(cell.ix + dx * step, cell.iy + dy * step, step - 1, -1e9, 1e9);
+    };
+    if (inside(1, 0) && inside(-1, 0) && inside(0, 1) && inside(0, -1)) continue;
+    ++border;
+    if (all.any_near(cell.ix, cell.iy, radius, floor.lo, floor.hi)) ++open;
+  }
+  const auto share = [](std::size_t part, std::size_t whole) {
+    return static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(1, whole));
   };
-  const double bottom = upright.z0 + upright.bin_m * end(upright.area_m2.begin(), upright.area_m2.end());
-  const double top = upright.z0 + upright.bin_m * (static_cast<double>(upright.area_m2.size()) -
-                                                   end(upright.area_m2.rbegin(), upright.area_m2.rend()));
-  if (bottom >= top) return;
-  if (bottom < levels.front().z - reach_m)
-    levels.insert(levels.begin(), {bottom, bottom, bottom, 0, 0, true});
-  if (top > levels.back().z + reach_m) levels.push_back({top, top, top, 0, 0, true});
+  if (share(over_floor, surface.cells.size()) >= kOverFloor) return true;
+  const double width =
+      2 * surface.area_m2 / (static_cast<double>(std::max<std::size_t>(1, border)) * raster_m);
+  return (surface.area_m2 < kLargest || width < kWidest) && share(open, border) >= kOpen;
+}
+
+void add_caps(std::vector<Level>& levels, const HeightSurvey& survey, const std::vector<SurfaceCell>& cells,
+              double reach_m) {
+  if (levels.empty()) return;
+  Plan plan;
+  for (const Level& level : levels)
+    plan.merge(plan_of(components(cells, level.lo, level.hi, survey.raster_m), survey.raster_m));
+  std::map<std::int32_t, double> above, below;
+  double total = 0;
+  for (const UprightBlock& block : survey.upright) {
+    total += block.area_m2;
+    const double z = (block.iz + 0.5) * kUprightHeight;
+    const bool over = z > levels.back().z + reach_m;
+    const bool under = z < levels.front().z - reach_m;
+    if ((!over && !under) || !plan.contains({block.iy, block.ix})) continue;
+    if (over) above[static_cast<std::int32_t>((z - levels.back().z) / kUprightHeight)] += block.area_m2;
+    if (under) below[static_cast<std::int32_t>((levels.front().z - z) / kUprightHeight)] += block.area_m2;
+  }
+  const double up = reach_beyond(above, total);
+  const double down = reach_beyond(below, total);
+  if (up > 0) {
+    const double z = levels.back().z + up;
+    levels.push_back({z, z, z, 0, 0, true});
+  }
+  if (down > 0) {
+    const double z = levels.front().z - down;
+    levels.insert(levels.begin(), {z, z, z, 0, 0, true});
+  }
 }
 
 }  // namespace roomcut

@@ -30,14 +30,21 @@ struct HeightMode {
 std::vector<HeightMode> height_modes(const std::vector<SurfaceCell>& cells, const LevelRules& rules);
 
 /// Levels, ascending: the modes whose band, cut off where the density's gradient flattens, holds a connected
-/// surface of min(rules.min_component_m2, half of the largest). Paper §2, horizontal slicing. `rejected` gets
-/// the others.
+/// surface of min(rules.min_component_m2, half of the largest) that is no furniture. Paper §2, horizontal
+/// slicing. `rejected` gets the others.
 std::vector<Level> find_levels(const HeightSurvey& survey, const std::vector<SurfaceCell>& cells,
                                const LevelRules& rules, std::vector<Level>* rejected = nullptr);
 
-/// Adds a level where upright surface goes on farther than `reach_m` beyond the lowest or highest level: the
-/// floor or ceiling there was not seen. The last 1 % of the upright area (at most 1 m^2) may stick out of the
-/// cap.
-void add_caps(std::vector<Level>& levels, const VerticalHistogram& upright, double reach_m);
+/// Whether a surface 0.25 … 1.3 m above a floor is a table or a counter rather than a floor of its own: the
+/// lower level's floor is seen under a quarter of it; or it is smaller than 12 m^2 or narrower than 1.6 m
+/// (twice area by border), and that floor goes on beside 40 % of its border.
+bool is_furniture(const SurfaceComponent& surface, const Level& floor, const std::vector<SurfaceCell>& cells,
+                  double raster_m);
+
+/// Adds a level where walls or sloped surfaces over the building's own footprint go on farther than `reach_m`
+/// beyond the lowest or highest level: the floor or ceiling there was not seen. Less than 1 m^2 or 2 % of all
+/// upright area does not count, and the last 1 % of what goes on may stick out.
+void add_caps(std::vector<Level>& levels, const HeightSurvey& survey, const std::vector<SurfaceCell>& cells,
+              double reach_m);
 
 }  // namespace roomcut

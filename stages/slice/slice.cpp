@@ -30,8 +30,8 @@ LevelRules level_rules(const CloudHeader& header, const SliceParams& params,
   const double spacing = header.density > 0 ? 1 / std::sqrt(header.density) : 0.1;
   LevelRules rules;
   rules.noise_m = header.noise_m;
-  rules.bandwidth_m = resolve(params.bandwidth_m, std::max(0.01, 2 * header.noise_m), "bandwidth_m",
-                              "max(1 cm, 2 x noise)", choices);
+  rules.bandwidth_m = resolve(params.bandwidth_m, std::max(0.007, 1.5 * header.noise_m), "bandwidth_m",
+                              "max(7 mm, 1.5 x noise)", choices);
   rules.raster_m = resolve(params.raster_m, std::clamp(2.5 * spacing, 0.10, 0.40), "raster_m",
                            "2.5 x point spacing, 10 ... 40 cm", choices);
   rules.min_component_m2 =
@@ -53,8 +53,13 @@ std::string format(const char* text, double a, double b, double c) {
   return buffer;
 }
 
-double total(const VerticalHistogram& histogram) {
-  return std::accumulate(histogram.area_m2.begin(), histogram.area_m2.end(), 0.0);
+double horizontal_m2(const HeightSurvey& survey) {
+  return std::accumulate(survey.horizontal.area_m2.begin(), survey.horizontal.area_m2.end(), 0.0);
+}
+
+double upright_m2(const HeightSurvey& survey) {
+  return std::accumulate(survey.upright.begin(), survey.upright.end(), 0.0,
+                         [](double sum, const UprightBlock& block) { return sum + block.area_m2; });
 }
 
 [[noreturn]] void no_levels(const HeightSurvey& survey, const std::vector<Level>& rejected) {
@@ -67,7 +72,7 @@ double total(const VerticalHistogram& histogram) {
       format(
           "no floor or ceiling: %.2f m^2 of horizontal surface in all, the largest connected piece %.2f m^2 "
           "at %.2f m",
-          total(survey.horizontal), best.component_m2, best.z),
+          horizontal_m2(survey), best.component_m2, best.z),
       "is z really up (ingest --up) and the unit right (ingest --unit)?");
 }
 
@@ -79,7 +84,7 @@ void require_levels(const HeightSurvey& survey, const std::vector<Level>& levels
         errors::kNoLevels, "slice",
         format("only one level, at %.2f m with %.2f m^2, and no wall goes on past it (%.2f m^2 of upright "
                "surface in all)",
-               levels[0].z, levels[0].area_m2, total(survey.upright)),
+               levels[0].z, levels[0].area_m2, upright_m2(survey)),
         "a model needs a floor and a ceiling, or walls beside a floor");
   }
 }
@@ -92,7 +97,7 @@ void require_vertical(const HeightSurvey& survey, const std::vector<OccupancyGri
       errors::kNoVertical, "slice",
       format("no wall: %.2f m^2 of upright surface against %.2f m^2 of horizontal surface, none of it "
              "between the levels",
-             total(survey.upright), total(survey.horizontal), 0),
+             upright_m2(survey), horizontal_m2(survey), 0),
       "is z really up (ingest --up)?");
 }
 
@@ -113,7 +118,7 @@ SliceResult slice_cloud(const CloudHeader& header, const TileSource& tiles, cons
   slices.density = header.density;
   slices.histogram = survey.horizontal;
   slices.levels = find_levels(survey, cells, rules, &result.rejected);
-  add_caps(slices.levels, survey.upright, params.cap_reach_m);
+  add_caps(slices.levels, survey, cells, params.cap_reach_m);
   require_levels(survey, slices.levels, result.rejected);
 
   slices.tau_m = choose_tau(header, params, result.choices);

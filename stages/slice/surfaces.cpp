@@ -5,53 +5,28 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
-#include <tuple>
+
+#include "stages/slice/surface_graph.h"
 
 namespace roomcut {
 namespace {
 
-constexpr double kBlock = 1.0;  // m; edge of the blocks in which drift is measured
+constexpr double kBlock = 1.0;           // m; edge of the blocks in which drift is measured
+constexpr double kSteepestDrift = 0.04;  // steeper is built that way: a ramp, a vault
 
-/// Disjoint sets with the smallest member as root.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t size) : parent_(size) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  std::size_t root(std::size_t i) {
-    while (parent_[i] != i) {
-      parent_[i] = parent_[parent_[i]];
-      i = parent_[i];
-    }
-    return i;
-  }
-  void join(std::size_t a, std::size_t b) {
-    a = root(a);
-    b = root(b);
-    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
-  }
+using Members = std::vector<std::size_t>;
 
- private:
-  std::vector<std::size_t> parent_;
-};
-
-/// Joins every cell with those cells of the columns (ix-1, iy) and (ix, iy-1) for which `connected` holds.
-template <class Connected>
-DisjointSets connect(const std::vector<SurfaceCell>& cells, Connected connected) {
-  DisjointSets sets(cells.size());
-  std::size_t below = 0;  // first cell of the column under the current one, moving along with it
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const SurfaceCell& cell = cells[i];
-    for (std::size_t j = i; j-- > 0 && cells[j].iy == cell.iy && cells[j].ix >= cell.ix - 1;) {
-      if (cells[j].ix == cell.ix - 1 && connected(cells[j], cell)) sets.join(i, j);
-    }
-    while (std::tie(cells[below].iy, cells[below].ix) < std::make_tuple(cell.iy - 1, cell.ix)) ++below;
-    for (std::size_t j = below; cells[j].iy == cell.iy - 1 && cells[j].ix == cell.ix; ++j) {
-      if (connected(cells[j], cell)) sets.join(i, j);
-    }
+/// Cells of each set, in the order of the sets' first cells.
+std::vector<Members> sets_of(DisjointSets& sets, std::size_t cells) {
+  std::vector<std::pair<std::size_t, std::size_t>> pairs(cells);  // (set, cell)
+  for (std::size_t i = 0; i < cells; ++i) pairs[i] = {sets.root(i), i};
+  std::sort(pairs.begin(), pairs.end());
+  std::vector<Members> groups;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (k == 0 || pairs[k].first != pairs[k - 1].first) groups.emplace_back();
+    groups.back().push_back(pairs[k].second);
   }
-  return sets;
+  return groups;
 }
 
 struct Block {
@@ -95,9 +70,29 @@ double drift_of(const std::vector<SurfaceCell>& cells, const std::vector<std::si
     }
   }
   // A block holds tens to hundreds of points: their mean is good to a tenth of the noise or better.
-  if (std::max(median(steps[0]), median(steps[1])) < std::max(0.001, 0.2 * noise_m)) return 0;
+  const double slope = std::max(median(steps[0]), median(steps[1])) / kBlock;
+  if (slope < std::max(0.001, 0.2 * noise_m / kBlock) || slope > kSteepestDrift) return 0;
   const double mean = first / area;
   return std::sqrt(std::max(0.0, second / area - mean * mean));
+}
+
+/// Scraps that noise has cut off lie on a larger surface: they take the largest drift of the cells around
+/// them that is large enough to explain their distance from it.
+void lend_drift(std::vector<SurfaceCell>& cells, const Members& scraps, double raster_m) {
+  const CellIndex index(cells);
+  const auto radius = static_cast<std::int32_t>(std::ceil(0.3 / raster_m));
+  std::vector<double> lent(scraps.size(), 0);
+  for (std::size_t k = 0; k < scraps.size(); ++k) {
+    const SurfaceCell& scrap = cells[scraps[k]];
+    for (std::int32_t dy = -radius; dy <= radius; ++dy) {
+      const auto [from, to] = index.find(scrap.iy + dy, scrap.ix - radius, scrap.ix + radius);
+      for (std::size_t j = from; j < to; ++j) {
+        if (std::abs(cells[j].z - scrap.z) <= 2 * cells[j].drift_m)
+          lent[k] = std::max(lent[k], cells[j].drift_m);
+      }
+    }
+  }
+  for (std::size_t k = 0; k < scraps.size(); ++k) cells[scraps[k]].drift_m = lent[k];
 }
 
 }  // namespace
@@ -133,36 +128,51 @@ std::vector<SurfaceCell> surface_cells(const std::vector<SurfacePatch>& patches,
 void measure_drift(std::vector<SurfaceCell>& cells, double raster_m, double noise_m) {
   // A cell across a step mixes two surfaces: its points spread more than noise does, and it connects nothing.
   const double mixed = std::max(0.006, 1.8 * noise_m);
-  DisjointSets sets = connect(cells, [&](const SurfaceCell& a, const SurfaceCell& b) {
+  DisjointSets sets = connect_cells(cells, raster_m, [&](const SurfaceCell& a, const SurfaceCell& b) {
     if (a.rms_m > mixed || b.rms_m > mixed) return false;
     const double step = 3 * noise_m * std::sqrt(1.0 / a.count + 1.0 / b.count);
     return std::abs(a.z - b.z) <= std::max(0.004, step);
   });
-  std::vector<std::pair<std::size_t, std::size_t>> members(cells.size());  // (surface, cell)
-  for (std::size_t i = 0; i < cells.size(); ++i) members[i] = {sets.root(i), i};
-  std::sort(members.begin(), members.end());
-  for (std::size_t first = 0; first < members.size();) {
-    std::size_t end = first;
-    std::vector<std::size_t> surface;
-    for (; end < members.size() && members[end].first == members[first].first; ++end)
-      surface.push_back(members[end].second);
-    const double drift = drift_of(cells, surface, raster_m, noise_m);
-    for (const std::size_t i : surface) cells[i].drift_m = drift;
-    first = end;
+  Members scraps;
+  for (const Members& members : sets_of(sets, cells.size())) {
+    double area = 0;
+    for (const std::size_t i : members) area += cells[i].area_m2;
+    if (area < kBlock * kBlock) {
+      scraps.insert(scraps.end(), members.begin(), members.end());
+    } else {
+      const double drift = drift_of(cells, members, raster_m, noise_m);
+      for (const std::size_t i : members) cells[i].drift_m = drift;
+    }
   }
+  lend_drift(cells, scraps, raster_m);
 }
 
-double largest_component_m2(const std::vector<SurfaceCell>& cells, double lo, double hi, double raster_m) {
+std::vector<SurfaceComponent> components(const std::vector<SurfaceCell>& cells, double lo, double hi,
+                                         double raster_m) {
   std::vector<SurfaceCell> inside;
   for (const SurfaceCell& cell : cells) {
-    const bool new_column = inside.empty() || inside.back().ix != cell.ix || inside.back().iy != cell.iy;
-    if (new_column && lo <= cell.z && cell.z <= hi) inside.push_back(cell);
+    if (cell.z < lo || cell.z > hi) continue;
+    if (inside.empty() || inside.back().ix != cell.ix || inside.back().iy != cell.iy) {
+      inside.push_back(cell);
+    } else {
+      inside.back().area_m2 += cell.area_m2;
+      inside.back().count += cell.count;
+    }
   }
-  DisjointSets sets = connect(inside, [](const SurfaceCell&, const SurfaceCell&) { return true; });
-  std::vector<std::size_t> size(inside.size(), 0);
-  std::size_t largest = 0;
-  for (std::size_t i = 0; i < inside.size(); ++i) largest = std::max(largest, ++size[sets.root(i)]);
-  return static_cast<double>(largest) * raster_m * raster_m;
+  DisjointSets sets =
+      connect_cells(inside, raster_m, [](const SurfaceCell&, const SurfaceCell&) { return true; });
+  std::vector<SurfaceComponent> found;
+  for (const Members& members : sets_of(sets, inside.size())) {
+    SurfaceComponent component;
+    for (const std::size_t i : members) {
+      component.area_m2 += inside[i].area_m2;
+      component.cells.push_back(inside[i]);
+    }
+    found.push_back(std::move(component));
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.area_m2 > b.area_m2; });
+  return found;
 }
 
 }  // namespace roomcut

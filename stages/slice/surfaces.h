@@ -25,11 +25,18 @@ std::vector<SurfaceCell> surface_cells(const std::vector<SurfacePatch>& patches,
 /// Finds the surfaces that run smoothly from cell to cell and sets each cell's drift_m: 0 for a level
 /// surface, the standard deviation of its height in blocks of 1 m where it tilts or drifts. A drifting floor
 /// of a mobile scan is one surface, whatever its range of heights, while two ceilings 4 cm apart are two: no
-/// smooth way leads across the step.
+/// smooth way leads across the step. Scraps take the drift of the surface they lie on.
 void measure_drift(std::vector<SurfaceCell>& cells, double raster_m, double noise_m);
 
-/// Footprint of the largest 4-connected component of the cells with lo <= z <= hi [m^2]; cells sorted by (iy,
-/// ix, z).
-double largest_component_m2(const std::vector<SurfaceCell>& cells, double lo, double hi, double raster_m);
+/// A connected part of the cells within a band of heights.
+struct SurfaceComponent {
+  double area_m2 = 0;
+  std::vector<SurfaceCell> cells;  ///< one per column, sorted by (iy, ix)
+};
+
+/// Components of the cells with lo <= z <= hi, largest first. Cells are connected when they lie side by side
+/// or, where points are sparse, within 2.5 point spacings. `cells` must be sorted by (iy, ix, z).
+std::vector<SurfaceComponent> components(const std::vector<SurfaceCell>& cells, double lo, double hi,
+                                         double raster_m);
 
 }  // namespace roomcut

@@ -26,8 +26,19 @@ struct PatchSum {
   }
 };
 
-struct Profile {
-  std::vector<std::int64_t> horizontal, upright;
+struct AreaSum {
+  std::int64_t area = 0;
+  AreaSum& operator+=(const AreaSum& other) {
+    area += other.area;
+    return *this;
+  }
+};
+
+/// What one thread, or one tile, has summed.
+struct Sums {
+  std::vector<std::int64_t> histogram;
+  CellTable<PatchSum> patches;
+  CellTable<AreaSum> upright;
 };
 
 std::int32_t cell_of(double coordinate, double edge) {
@@ -42,16 +53,30 @@ void add_patch(CellTable<PatchSum>& table, const CloudTile& tile, std::size_t i,
                     std::llround(above_bin * static_cast<double>(tile.area[i]) / kMomentUnit)};
 }
 
-VerticalHistogram histogram(double z0, double bin_m, const tbb::enumerable_thread_specific<Profile>& profiles,
-                            std::vector<std::int64_t> Profile::*field, std::size_t bins) {
+void add_upright(CellTable<AreaSum>& table, const CloudTile& tile, std::size_t i) {
+  const CellKey key{cell_of(tile.x[i], kUprightPlan), cell_of(tile.y[i], kUprightPlan),
+                    cell_of(tile.z[i], kUprightHeight)};
+  table.at(key) += {std::llround(tile.area[i] / kAreaUnit)};
+}
+
+VerticalHistogram histogram(double z0, double bin_m, const tbb::enumerable_thread_specific<Sums>& threads,
+                            std::size_t bins) {
   std::vector<std::int64_t> sums(bins, 0);
-  for (const Profile& profile : profiles) {
-    for (std::size_t i = 0; i < bins; ++i) sums[i] += (profile.*field)[i];
+  for (const Sums& thread : threads) {
+    for (std::size_t i = 0; i < bins; ++i) sums[i] += thread.histogram[i];
   }
   VerticalHistogram result{z0, bin_m, std::vector<double>(bins)};
   std::transform(sums.begin(), sums.end(), result.area_m2.begin(),
                  [](std::int64_t sum) { return static_cast<double>(sum) * kAreaUnit; });
   return result;
+}
+
+std::vector<UprightBlock> to_blocks(std::vector<std::vector<CellEntry<AreaSum>>> parts) {
+  std::vector<UprightBlock> blocks;
+  for (const auto& [key, sum] : merged(std::move(parts), by_column)) {
+    blocks.push_back({key.ix, key.iy, key.iz, static_cast<double>(sum.area) * kAreaUnit});
+  }
+  return blocks;
 }
 
 std::vector<SurfacePatch> to_patches(std::vector<std::vector<CellEntry<PatchSum>>> parts) {
@@ -74,35 +99,38 @@ HeightSurvey survey_heights(const CloudHeader& header, const TileSource& tiles, 
   // One empty bin at both ends, so that no peak lies on the border.
   const double z0 = (std::floor(header.bbox_min.z() / bin_m) - 1) * bin_m;
   const auto bins = static_cast<std::size_t>(std::floor((header.bbox_max.z() - z0) / bin_m)) + 2;
-  tbb::enumerable_thread_specific<Profile> profiles([bins] {
-    return Profile{std::vector<std::int64_t>(bins, 0), std::vector<std::int64_t>(bins, 0)};
+  tbb::enumerable_thread_specific<Sums> threads([bins] {
+    return Sums{std::vector<std::int64_t>(bins, 0), {}, {}};
   });
-  tbb::enumerable_thread_specific<CellTable<PatchSum>> tables;
-  std::vector<std::vector<CellEntry<PatchSum>>> parts;
-  std::mutex parts_mutex;
+  std::vector<std::vector<CellEntry<PatchSum>>> patches;
+  std::vector<std::vector<CellEntry<AreaSum>>> upright;
+  std::mutex mutex;
 
   tiles([&](std::size_t, const CloudTile& tile) {
-    Profile& profile = profiles.local();
-    CellTable<PatchSum>& table = tables.local();
+    Sums& sums = threads.local();
     for (std::size_t i = 0; i < tile.size(); ++i) {
       const auto surface = static_cast<SurfaceClass>(tile.surface[i]);
-      if (surface == SurfaceClass::kNone) continue;
-      const double position = (tile.z[i] - z0) / bin_m;
-      const auto bin = static_cast<std::size_t>(std::clamp(position, 0.0, static_cast<double>(bins - 1)));
-      const bool level = surface == SurfaceClass::kHorizontal;
-      (level ? profile.horizontal : profile.upright)[bin] += std::llround(tile.area[i] / kAreaUnit);
-      if (level) add_patch(table, tile, i, raster_m);
+      if (surface == SurfaceClass::kHorizontal) {
+        const double position = (tile.z[i] - z0) / bin_m;
+        const auto bin = static_cast<std::size_t>(std::clamp(position, 0.0, static_cast<double>(bins - 1)));
+        sums.histogram[bin] += std::llround(tile.area[i] / kAreaUnit);
+        add_patch(sums.patches, tile, i, raster_m);
+      } else if (surface != SurfaceClass::kNone) {
+        add_upright(sums.upright, tile, i);
+      }
     }
-    std::vector<CellEntry<PatchSum>> part = table.take();
-    const std::lock_guard lock(parts_mutex);
-    parts.push_back(std::move(part));
+    std::vector<CellEntry<PatchSum>> tile_patches = sums.patches.take();
+    std::vector<CellEntry<AreaSum>> tile_upright = sums.upright.take();
+    const std::lock_guard lock(mutex);
+    patches.push_back(std::move(tile_patches));
+    upright.push_back(std::move(tile_upright));
   });
 
   HeightSurvey survey;
   survey.raster_m = raster_m;
-  survey.patches = to_patches(std::move(parts));
-  survey.horizontal = histogram(z0, bin_m, profiles, &Profile::horizontal, bins);
-  survey.upright = histogram(z0, bin_m, profiles, &Profile::upright, bins);
+  survey.patches = to_patches(std::move(patches));
+  survey.upright = to_blocks(std::move(upright));
+  survey.horizontal = histogram(z0, bin_m, threads, bins);
   return survey;
 }
 

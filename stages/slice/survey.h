@@ -17,12 +17,21 @@ struct SurfacePatch {
   double area_m2 = 0;           ///< surface area that the points stand for
 };
 
+/// Wall and sloped points of one coarse cell.
+struct UprightBlock {
+  std::int32_t ix = 0, iy = 0;  ///< plan cell of kUprightPlan
+  std::int32_t iz = 0;          ///< height bin of kUprightHeight
+  double area_m2 = 0;
+};
+inline constexpr double kUprightPlan = 0.5;     // m
+inline constexpr double kUprightHeight = 0.05;  // m
+
 /// What one pass over the points tells of heights.
 struct HeightSurvey {
   double raster_m = 0;
   std::vector<SurfacePatch> patches;  ///< sorted by (iy, ix, z)
   VerticalHistogram horizontal;       ///< area of horizontal points
-  VerticalHistogram upright;          ///< area of wall and sloped points, same bins
+  std::vector<UprightBlock> upright;  ///< sorted by (iy, ix, iz)
 };
 
 /// Sums horizontal, wall and sloped points over heights (one pass). Every point weighs the area it stands

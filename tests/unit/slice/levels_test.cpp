@@ -11,7 +11,7 @@ namespace {
 using testing::SyntheticCloud;
 
 LevelRules rules_for(const SyntheticCloud& cloud) {
-  return {cloud.noise(), std::max(0.01, 2 * cloud.noise()), 0.1, 4.0};
+  return {cloud.noise(), std::max(0.007, 1.5 * cloud.noise()), 0.1, 4.0};
 }
 
 std::vector<Level> levels_of(const SyntheticCloud& cloud, std::vector<Level>* rejected = nullptr) {
@@ -20,7 +20,7 @@ std::vector<Level> levels_of(const SyntheticCloud& cloud, std::vector<Level>* re
   std::vector<SurfaceCell> cells = surface_cells(survey.patches, rules.noise_m);
   measure_drift(cells, rules.raster_m, rules.noise_m);
   std::vector<Level> levels = find_levels(survey, cells, rules, rejected);
-  add_caps(levels, survey.upright, 0.2);
+  add_caps(levels, survey, cells, 0.2);
   return levels;
 }
 
@@ -57,6 +57,13 @@ TEST(Levels, CeilingsFourCentimetresApartInDifferentRoomsStayApart) {
     cloud.room({5.1, 0}, {9, 4}, 0.0, 2.54);
     expect_heights(levels_of(cloud), {0.0, 2.50, 2.54}, 0.003);
   }
+}
+
+TEST(Levels, CeilingsThreeCentimetresApartStayApart) {
+  SyntheticCloud cloud(0.005);
+  cloud.room({0, 0}, {5, 4}, 0.0, 2.50);
+  cloud.room({5.1, 0}, {9, 4}, 0.0, 2.53);
+  expect_heights(levels_of(cloud), {0.0, 2.50, 2.53}, 0.003);
 }
 
 TEST(Levels, AStepOfFiveCentimetresInOneCeilingIsTwoLevels) {
@@ -100,6 +107,38 @@ TEST(Levels, ATableIsNoLevel) {
   ASSERT_EQ(rejected.size(), 1U);
   EXPECT_NEAR(rejected[0].area_m2, 5.76, 0.3);
   EXPECT_NEAR(rejected[0].component_m2, 1.92, 0.3);
+}
+
+TEST(Levels, ALargeTableOverAVisibleFloorIsNoLevel) {
+  SyntheticCloud cloud;
+  cloud.room({0, 0}, {9, 6}, 0.0, 2.5);
+  cloud.horizontal({1, 1}, {8, 3}, 0.74);
+  expect_heights(levels_of(cloud), {0.0, 2.5}, 0.002);
+}
+
+TEST(Levels, AStageOfTwentySquareMetresIsALevel) {
+  SyntheticCloud cloud;
+  cloud.room({0, 0}, {9, 6}, 0.0, 3.5);
+  cloud.horizontal({9, 0}, {12.5, 6}, 0.8);
+  cloud.wall({9, 0}, {9, 6}, 0.0, 0.8);
+  expect_heights(levels_of(cloud), {0.0, 0.8, 3.5}, 0.002);
+}
+
+TEST(Levels, AFloorOverTheCeilingBelowIsNoTable) {
+  SyntheticCloud cloud;
+  cloud.room({0, 0}, {12, 8}, 0.0, 2.5);
+  cloud.room({0, 0}, {3, 3}, 2.8, 5.0);
+  expect_heights(levels_of(cloud), {0.0, 2.5, 2.8, 5.0}, 0.002);
+}
+
+TEST(Levels, AVaultHasOneLevelAtItsCrown) {
+  SyntheticCloud cloud(0.003);
+  cloud.horizontal({0, 0}, {12, 12}, 0.0);
+  cloud.horizontal({0, 0}, {12, 12}, [](const Vec2& p) { return 4.0 - 0.006 * (p.x() - 6) * (p.x() - 6); });
+  const std::vector<Level> levels = levels_of(cloud);
+  ASSERT_EQ(levels.size(), 2U) << ::testing::PrintToString(heights(levels));
+  EXPECT_GT(levels[1].z, 3.85);
+  EXPECT_LT(levels[1].z, 4.0);
 }
 
 TEST(Levels, ARoomOfThreeSquareMetresHasFloorAndCeiling) {
