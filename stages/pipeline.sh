@@ -273,11 +273,11 @@ case $command in
     # Some stages are seen best in the picture of another one.
     case $1 in
       ingest) only=ingest files=cloud ;;
-      slice) only=slice files=slice ;;
-      detect_lines | accept_lines) only=detect_lines files=detect_lines ;;
+      slice) only=slice files=slice_histogram ;;
+      detect_lines | accept_lines) only=detect_lines files=slice_[0-9] ;;
       partition | weigh_faces | raycast | graphcut) only=graphcut files=cells ;;
       refine_lines | final_*) only=refine_lines files=refine_lines ;;
-      *) only=extract files=model ;;
+      *) only=extract files='[ms][ot][do][er][le]' ;;
     esac
     "$BIN/report" --work . --params params/report.json --only $only --log logs/plot.json -q
     ls "$WORK"/pictures/$files* ;;
