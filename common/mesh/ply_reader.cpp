@@ -146,8 +146,9 @@ class PlyReader {
     std::uint32_t u = 0;
     std::memcpy(&u, bytes.data(), type.bytes);
     if (type.kind == Scalar::Kind::kUnsigned) return static_cast<double>(u);
-    const auto shift = static_cast<int>(32 - 8 * type.bytes);
-    return static_cast<double>(static_cast<std::int32_t>(u << shift) >> shift);
+    if (type.bytes == 1) return static_cast<double>(static_cast<std::int8_t>(u));
+    if (type.bytes == 2) return static_cast<double>(static_cast<std::int16_t>(u));
+    return static_cast<double>(static_cast<std::int32_t>(u));
   }
 
   [[noreturn]] void truncated() {

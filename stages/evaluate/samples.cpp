@@ -46,9 +46,21 @@ void sample_edges(const TriangleMesh& mesh, std::size_t t, double spacing_m,
     const Vec3& a = mesh.corner(t, static_cast<int>(c));
     const Vec3& b = mesh.corner(t, static_cast<int>((c + 1) % 3));
     const auto steps = static_cast<int>(std::clamp(std::ceil((b - a).norm() / spacing_m), 1.0, 1e6));
-    for (int i = 0; i <= steps; ++i) {
+    for (int i = 1; i < steps; ++i) {
       const double share = static_cast<double>(i) / steps;
       out.push_back({(1 - share) * a + share * b, 0, static_cast<std::int32_t>(t)});
+    }
+  }
+}
+
+// Each vertex once, with the first triangle that has it.
+void sample_corners(const TriangleMesh& mesh, std::size_t t, std::vector<std::uint8_t>& seen,
+                    std::vector<SurfaceSample>& out) {
+  for (const std::int32_t v : mesh.triangles[t]) {
+    const auto i = static_cast<std::size_t>(v);
+    if (seen[i] == 0) {
+      seen[i] = 1;
+      out.push_back({mesh.vertices[i], 0, static_cast<std::int32_t>(t)});
     }
   }
 }
@@ -57,9 +69,11 @@ void sample_edges(const TriangleMesh& mesh, std::size_t t, double spacing_m,
 
 std::vector<SurfaceSample> sample_surface(const TriangleMesh& mesh, double spacing_m, std::uint64_t seed) {
   std::vector<SurfaceSample> out;
+  std::vector<std::uint8_t> seen(mesh.vertices.size(), 0);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     sample_inside(mesh, t, spacing_m, seed, out);
     sample_edges(mesh, t, spacing_m, out);
+    sample_corners(mesh, t, seen, out);
   }
   return out;
 }

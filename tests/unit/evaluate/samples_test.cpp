@@ -50,7 +50,8 @@ TEST(Samples, DependOnTheSeedAloneAndCornersAreAmongThem) {
   }
   EXPECT_TRUE(differs);
   for (const Vec3& corner : mesh.vertices) {
-    EXPECT_TRUE(std::any_of(a.begin(), a.end(), [&](const SurfaceSample& s) { return s.point == corner; }));
+    EXPECT_EQ(1,
+              std::count_if(a.begin(), a.end(), [&](const SurfaceSample& s) { return s.point == corner; }));
   }
 }
 
