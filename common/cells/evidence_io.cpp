@@ -63,6 +63,7 @@ FaceWeights read_weights(const std::filesystem::path& path, const CellsFile& cel
   weights.level_ceiling = read_share(file, "level/ceiling", sizes.levels);
   weights.level_points = file.read<std::uint32_t>("level/points", {sizes.levels});
   weights.cell_points = file.read<std::uint32_t>("cell/points", {sizes.cells});
+  weights.cell_slope = read_share(file, "cell/slope", sizes.cells);
   return weights;
 }
 
@@ -89,6 +90,8 @@ bool write_weights(const std::filesystem::path& path, const FaceWeights& weights
   file.write("level/points", weights.level_points, "1", "points counted on the level face");
   require_size(weights.cell_points.size(), sizes.cells, "cell/points");
   file.write("cell/points", weights.cell_points, "1", "points strictly inside the cell, away from its faces");
+  write_share(file, "cell/slope", weights.cell_slope, sizes.cells,
+              "share of the cell's plan over which a sloped surface passes through the cell");
   return file.commit();
 }
 
@@ -103,6 +106,8 @@ DataTerms read_data_terms(const std::filesystem::path& path, const CellsFile& ce
   terms.surface_m2 = file.read<float>("cell/surface", {count});
   check_range(file, "cell/winding", terms.winding, -1e6, 1e6);
   check_range(file, "cell/surface", terms.surface_m2, -1e12, 1e12);
+  terms.behind = read_share(file, "cell/behind", count);
+  terms.sky = read_share(file, "cell/sky", count);
   terms.observed = read_share(file, "cell/observed", count);
   terms.beta = read_share(file, "cell/beta", count);
   terms.d_empty = file.read<double>("cell/d_empty", {count});
@@ -127,6 +132,9 @@ bool write_data_terms(const std::filesystem::path& path, const DataTerms& terms,
   require_size(terms.surface_m2.size(), count, "cell/surface");
   file.write("cell/surface", terms.surface_m2, "m^2",
              "covered area of the cell's own faces: + where it faces the cell, - where it turns its back");
+  write_share(file, "cell/behind", terms.behind, count,
+              "share of the rays that end close by on a face's back: inside a wall or slab");
+  write_share(file, "cell/sky", terms.sky, count, "share of the rising rays that meet nothing: outdoors");
   write_share(file, "cell/observed", terms.observed, count, "share of the rays that end on a seen face");
   write_share(file, "cell/beta", terms.beta, count, "probability that the cell is empty");
   require_size(terms.d_empty.size(), count, "cell/d_empty");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages/raycast/cell_evidence.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -14,7 +15,9 @@ constexpr std::uint64_t kSeed = 2013;
 constexpr float kPermanent = 0.5F;  // paper: a face with omega above 1/2 is permanent
 constexpr double kColumnLimit =
     8.0;  // [m] looking up and down: no room is higher, and far levels are another storey's
-constexpr double kOpaque = 1e-3;  // a ray of which less is left has ended
+constexpr double kThickness = 0.5;  // [m] of walls and slabs: how far behind a surface solid is likely
+constexpr double kRising = 0.2;     // sine of the elevation from which a ray looks at the sky
+constexpr double kOpaque = 1e-3;    // a ray of which less is left has ended
 
 struct RayStart {
   Vec3 origin, direction;
@@ -42,6 +45,7 @@ void add_own_faces(const CellComplex& complex, const FaceWeights& weights, std::
     const bool is_left = complex.edges[edge].left == static_cast<std::int32_t>(face);
     const std::size_t w = complex.wall_face(edge, layer);
     const double area = complex.length(edge) * complex.height(layer);
+    evidence.total_m2 += area;
     evidence.front_m2 += area * (is_left ? weights.wall_left[w] : weights.wall_right[w]);
     evidence.back_m2 += area * (is_left ? weights.wall_right[w] : weights.wall_left[w]);
   }
@@ -50,7 +54,7 @@ void add_own_faces(const CellComplex& complex, const FaceWeights& weights, std::
   const std::size_t above = complex.level_face(face, layer + 1);
   evidence.front_m2 += area * (weights.level_floor[below] + weights.level_ceiling[above]);
   evidence.back_m2 += area * (weights.level_ceiling[below] + weights.level_floor[above]);
-  evidence.surface_m2 = evidence.front_m2 - evidence.back_m2;
+  evidence.total_m2 += 2 * area;
 }
 
 }  // namespace
@@ -62,10 +66,11 @@ FirstHit first_hit(const std::vector<Crossing>& crossings, double limit_m) {
     if (c.distance > limit_m || left < kOpaque) {
       break;
     }
-    hit.signed_hit += left * (c.front - c.back);
-    left *= 1 - c.omega;
+    hit.front += left * c.front;
+    hit.back += left * c.back;
+    hit.near_back += left * c.back * std::exp(-c.distance / kThickness);
+    left *= 1 - c.front - c.back;
   }
-  hit.absorbed = 1 - left;
   return hit;
 }
 
@@ -73,6 +78,7 @@ CellEvidence gather_evidence(const CellComplex& complex, const FaceWeights& weig
                              std::size_t face, std::size_t layer, int rays, std::vector<Crossing>& scratch) {
   CellEvidence evidence;
   add_own_faces(complex, weights, face, layer, evidence);
+  int rising = 0;
   for (int r = 0; r < rays; ++r) {
     const RayStart start = random_ray(complex, walk, face, layer, static_cast<std::size_t>(r));
     walk.follow({start.origin, start.direction, face, layer}, scratch);
@@ -83,18 +89,25 @@ CellEvidence gather_evidence(const CellComplex& complex, const FaceWeights& weig
     }
     evidence.kappa += odd ? 1 : 0;
     const FirstHit hit = first_hit(scratch, std::numeric_limits<double>::infinity());
-    evidence.around += hit.signed_hit;
-    evidence.observed += hit.absorbed;
+    evidence.around.front += hit.front / rays;
+    evidence.around.back += hit.back / rays;
+    if (start.direction.z() > kRising) {
+      ++rising;
+      evidence.sky += 1 - hit.front - hit.back;
+    }
+    evidence.around.near_back += hit.near_back / rays;
   }
   evidence.kappa /= rays;
+  evidence.sky /= std::max(1, rising);
   evidence.winding /= rays;
-  evidence.around /= rays;
-  evidence.observed /= rays;
   const Vec2 middle = complex.centroid(face);
   const double z = 0.5 * (complex.levels[layer] + complex.levels[layer + 1]);
   for (const double up : {-1.0, 1.0}) {
     walk.follow({{middle.x(), middle.y(), z}, {0, 0, up}, face, layer}, scratch);
-    evidence.vertical += 0.5 * first_hit(scratch, kColumnLimit).signed_hit;
+    const FirstHit hit = first_hit(scratch, kColumnLimit);
+    evidence.vertical.front += 0.5 * hit.front;
+    evidence.vertical.back += 0.5 * hit.back;
+    evidence.vertical.near_back += 0.5 * hit.near_back;
   }
   return evidence;
 }

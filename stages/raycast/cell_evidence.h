@@ -7,22 +7,26 @@
 
 namespace roomcut {
 
+/// What a ray ends on, seen through what is not covered.
+struct FirstHit {
+  double front = 0;      ///< share of the ray that ends on a surface's front: the way there is empty
+  double back = 0;       ///< share that ends on a back: solid just before it
+  double near_back = 0;  ///< the same, fading with the distance: walls and slabs are thin
+};
+
 /// What speaks for a cell being empty or solid. Each measure by itself; combined in raycast.cpp.
 struct CellEvidence {
   double kappa = 0;    ///< share of rays with an odd number of permanent faces (omega > 1/2)
   double winding = 0;  ///< mean of the signed crossings, fronts - backs
-  double around = 0;  ///< first hits along the rays, seen through what is not covered: fronts - backs, -1 … 1
-  double vertical = 0;               ///< the same straight up and straight down
-  double surface_m2 = 0;             ///< fronts - backs on the cell's own faces [m²]
-  double front_m2 = 0, back_m2 = 0;  ///< its two parts
-  double observed = 0;               ///< share of the rays that end on a seen face
+  FirstHit around;     ///< mean over the rays
+  FirstHit vertical;   ///< mean of straight up and straight down
+  double sky = 0;      ///< share of the rising rays that meet nothing
+  double front_m2 = 0,
+         back_m2 = 0;   ///< covered area of the cell's own faces that shows it its front, its back
+  double total_m2 = 0;  ///< area of all its faces
 };
 
-/// First hits along a sorted list of crossings: what the ray meets before `limit_m`.
-struct FirstHit {
-  double signed_hit = 0;  ///< fronts - backs
-  double absorbed = 0;    ///< share of the ray that ends on a face
-};
+/// First hits along a sorted list of crossings, up to `limit_m`.
 FirstHit first_hit(const std::vector<Crossing>& crossings, double limit_m);
 
 /// Casts `rays` rays from random points of the cell. Pure function of its arguments: the random numbers are

@@ -7,8 +7,28 @@
 
 namespace roomcut {
 
+double completed_share(double omega) {
+  constexpr double kNothing = 0.05;  // stray points, rims
+  constexpr double kWhole = 0.4;
+  return std::clamp((omega - kNothing) / (kWhole - kNothing), 0.0, 1.0);
+}
+
 FaceWalk::FaceWalk(const CellComplex& complex, const FaceWeights& weights)
     : complex_(complex), weights_(weights) {
+  const auto complete = [](float omega, float front, float back) {
+    const double scale = omega > 0 ? completed_share(omega) / omega : 0;
+    return Sides{static_cast<float>(scale * front), static_cast<float>(scale * back)};
+  };
+  for (std::size_t i = 0; i < weights.wall_omega.size(); ++i) {
+    walls_.push_back(complete(weights.wall_omega[i], weights.wall_left[i], weights.wall_right[i]));
+  }
+  for (std::size_t i = 0; i < weights.level_omega.size(); ++i) {
+    Sides sides = complete(weights.level_omega[i], weights.level_floor[i], weights.level_ceiling[i]);
+    // A roof that passes through the cell below shuts it like a ceiling.
+    const float slope = i < complex.faces() ? 0 : weights.cell_slope[i - complex.faces()];
+    sides.back = std::max(sides.back, std::min(static_cast<float>(completed_share(slope)), 1 - sides.front));
+    levels_.push_back(sides);
+  }
   sides_.reserve(complex.face_vertex.size());
   for (std::size_t f = 0; f < complex.faces(); ++f) {
     const std::int64_t begin = complex.face_offset[f];
@@ -70,10 +90,9 @@ void FaceWalk::follow(const Ray& ray, std::vector<Crossing>& crossings) const {
     if (exit != nullptr && wall_at <= level_at) {
       now = std::max(now, wall_at);
       const std::size_t w = layer * edges + static_cast<std::size_t>(exit->edge);
-      const float left = weights_.wall_left[w];
-      const float right = weights_.wall_right[w];
+      const Sides& s = walls_[w];
       crossings.push_back(
-          {now, weights_.wall_omega[w], exit->is_left ? left : right, exit->is_left ? right : left});
+          {now, weights_.wall_omega[w], exit->is_left ? s.front : s.back, exit->is_left ? s.back : s.front});
       if (exit->neighbour < 0) {
         return;
       }

@@ -12,9 +12,13 @@ namespace roomcut {
 struct Crossing {
   double distance;  ///< along the ray [m]
   float omega;      ///< covered share
-  float front;      ///< covered share of surface that shows the ray its front: empty on the ray's side
-  float back;       ///< … its back: solid on the ray's side
+  float front;      ///< completed share of surface that shows the ray its front: empty on the ray's side
+  float back;  ///< … its back: solid on the ray's side; front + back <= 1, what is left lets the ray through
 };
+
+/// The share of a face that is taken for a surface when `omega` of it was seen. Windows, furniture and
+/// shadows hide parts of most walls and floors: what is seen of a face tells what the rest of it is.
+double completed_share(double omega);
 
 struct Ray {
   Vec3 origin;
@@ -46,7 +50,11 @@ class FaceWalk {
 
   const CellComplex& complex_;
   const FaceWeights& weights_;
-  std::vector<Side> sides_;  // parallel to complex.face_vertex
+  struct Sides {
+    float front, back;  // seen from the left, or from above
+  };
+  std::vector<Sides> walls_, levels_;  // completed
+  std::vector<Side> sides_;            // parallel to complex.face_vertex
 };
 
 }  // namespace roomcut

@@ -4,6 +4,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace roomcut {
@@ -16,7 +17,13 @@ double sigmoid(double x) {
 }  // namespace
 
 double empty_log_odds(const CellEvidence& e) {
-  return 6 * (e.vertical - 0.2) + 3 * (e.around - 0.15) + 4 * (e.kappa - 0.5);
+  // A few stray points on a large cell's faces should not decide: they count against this much of its
+  // surface.
+  const double doubt = 0.5 + 0.03 * e.total_m2;
+  const double own = (e.front_m2 - e.back_m2) / (e.front_m2 + e.back_m2 + doubt);
+  const double seen = e.around.front + e.around.back;
+  const double open = std::max(0.0, 1 - seen - 0.35);  // most rooms are closed to two thirds at least
+  return 1 + 4 * own + 2 * e.around.front - 3 * e.around.near_back - 3 * open - 5 * e.sky;
 }
 
 DataTerms cast_rays(const CellComplex& complex, const FaceWeights& weights, const RaycastParams& params) {
@@ -27,6 +34,8 @@ DataTerms cast_rays(const CellComplex& complex, const FaceWeights& weights, cons
   terms.around.resize(cells);
   terms.winding.resize(cells);
   terms.surface_m2.resize(cells);
+  terms.behind.resize(cells);
+  terms.sky.resize(cells);
   terms.observed.resize(cells);
   terms.beta.resize(cells);
   terms.d_empty.resize(cells);
@@ -41,11 +50,13 @@ DataTerms cast_rays(const CellComplex& complex, const FaceWeights& weights, cons
           const std::size_t layer = c / complex.faces();
           const CellEvidence e = gather_evidence(complex, weights, walk, face, layer, params.rays, scratch);
           terms.kappa[c] = static_cast<float>(e.kappa);
-          terms.vertical[c] = static_cast<float>(e.vertical);
-          terms.around[c] = static_cast<float>(e.around);
+          terms.vertical[c] = static_cast<float>(e.vertical.front - e.vertical.back);
+          terms.around[c] = static_cast<float>(e.around.front - e.around.back);
           terms.winding[c] = static_cast<float>(e.winding);
-          terms.surface_m2[c] = static_cast<float>(e.surface_m2);
-          terms.observed[c] = static_cast<float>(e.observed);
+          terms.surface_m2[c] = static_cast<float>(e.front_m2 - e.back_m2);
+          terms.behind[c] = static_cast<float>(e.around.near_back);
+          terms.sky[c] = static_cast<float>(e.sky);
+          terms.observed[c] = static_cast<float>(e.around.front + e.around.back);
           const double beta = parity ? sigmoid(10 * (e.kappa - 0.5)) : sigmoid(empty_log_odds(e));
           const double depth = parity ? 0 : params.surface_depth_m;
           const double volume = complex.area(face) * complex.height(layer);

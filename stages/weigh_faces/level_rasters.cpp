@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stages/weigh_faces/components.h"
-
 namespace roomcut {
 
 LevelRasters::LevelRasters(const CellComplex& complex, const Tolerances& tolerances)
@@ -16,6 +14,7 @@ LevelRasters::LevelRasters(const CellComplex& complex, const Tolerances& toleran
       faces_(complex, tolerances.bin, tolerances.core_margin),
       on_(complex.levels.size() * faces_.pieces()),
       sloped_(complex.levels.size() * faces_.pieces()),
+      slope_(complex.layers() * faces_.pieces()),
       over_(complex.levels.size() * faces_.grid().size()),
       under_(complex.levels.size() * faces_.grid().size()) {}
 
@@ -28,8 +27,8 @@ void LevelRasters::add_bin(SparseCounts& counts, std::size_t level, const Vec2& 
   }
 }
 
-std::vector<std::vector<std::uint8_t>> LevelRasters::occupied_bins() const {
-  std::vector<std::vector<std::uint8_t>> occupied(complex_.levels.size());
+LevelRasters::Occupied LevelRasters::occupied_bins() const {
+  Occupied occupied(complex_.levels.size());
   tbb::parallel_for(std::size_t{0}, occupied.size(), [&](std::size_t level) {
     occupied[level].assign(faces_.grid().size(), 0);
     for (std::size_t bin = 0; bin < faces_.grid().size(); ++bin) {
@@ -41,10 +40,11 @@ std::vector<std::vector<std::uint8_t>> LevelRasters::occupied_bins() const {
   return occupied;
 }
 
-void LevelRasters::add_gap(std::size_t level, std::size_t bin,
-                           const std::vector<std::vector<std::uint8_t>>& occupied, Sides& sides) const {
-  constexpr double kTall = 1.0;   // [m] room for a person to stoop: a room, not a plenum
-  constexpr double kShort = 0.7;  // [m] at most a thick slab
+void LevelRasters::add_gap(std::size_t level, std::size_t bin, const Occupied& occupied,
+                           LevelSides& sides) const {
+  constexpr double kTall = 1.0;     // [m] room for a person to stoop: a room, not a plenum
+  constexpr double kShort = 0.7;    // [m] at most a thick slab
+  constexpr double kUnseen = 0.25;  // what a side counts on which nothing was seen at all
   constexpr double kNothing = 1e9;
   double above = kNothing;
   for (std::size_t l = level + 1; l < occupied.size() && above == kNothing; ++l) {
@@ -55,103 +55,109 @@ void LevelRasters::add_gap(std::size_t level, std::size_t bin,
     below = occupied[l][bin] != 0 ? complex_.levels[level] - complex_.levels[l] : kNothing;
   }
   const auto open = [](double gap) { return gap > kTall && gap < kNothing; };
-  const auto closed = [](double gap) { return gap < kShort || gap == kNothing; };
-  sides.open_over += open(above) && closed(below) ? 1 : 0;
-  sides.open_under += open(below) && closed(above) ? 1 : 0;
+  const auto closed = [](double gap) { return gap < kShort ? 1.0 : gap == kNothing ? kUnseen : 0.0; };
+  sides.open_over += open(above) ? closed(below) : 0;
+  sides.open_under += open(below) ? closed(above) : 0;
 }
 
-std::vector<double> LevelRasters::floor_probability(
-    std::size_t level, const std::vector<std::vector<std::uint8_t>>& occupied) const {
+std::vector<LevelSides> LevelRasters::sides_of_faces(std::size_t level, const Occupied& occupied) const {
   const PlanGrid& grid = faces_.grid();
-  const Components components = find_components(occupied[level], grid.nx, grid.ny);
-  std::vector<Sides> of_component(static_cast<std::size_t>(components.count));
-  std::vector<Sides> of_face(complex_.faces());
-  for (std::size_t bin = 0; bin < grid.size(); ++bin) {
-    // Points beside a component's rim (a wall's foot) count too: its bins are grown by one.
-    const std::int32_t c = components.grown[bin];
-    if (c < 0) {
-      continue;
+  std::vector<LevelSides> sides(complex_.faces());
+  const auto near_surface = [&](int ix,
+                                int iy) {  // the rim of a surface counts too: there a wall stands on it
+    for (int y = std::max(0, iy - 1); y <= std::min(grid.ny - 1, iy + 1); ++y) {
+      for (int x = std::max(0, ix - 1); x <= std::min(grid.nx - 1, ix + 1); ++x) {
+        if (occupied[level][grid.index(x, y)] != 0) {
+          return true;
+        }
+      }
     }
-    Sides here;
-    here.over = over_.at(level * grid.size() + bin) > 0 ? 1 : 0;
-    here.under = under_.at(level * grid.size() + bin) > 0 ? 1 : 0;
-    if (occupied[level][bin] != 0) {
-      add_gap(level, bin, occupied, here);
-    }
-    const auto add = [&here](Sides& sum) {
-      sum.over += here.over;
-      sum.under += here.under;
-      sum.open_over += here.open_over;
-      sum.open_under += here.open_under;
-    };
-    add(of_component[static_cast<std::size_t>(c)]);
-    for (std::size_t i = faces_.first(bin); i < faces_.first(bin + 1); ++i) {
-      add(of_face[static_cast<std::size_t>(faces_.piece(i).face)]);
-    }
-  }
-  constexpr double kPrior = 10;  // bins that the component's evidence is worth in a face of its own opinion
-  std::vector<double> probability(faces_.pieces(), 0.5);
-  for (std::size_t bin = 0; bin < grid.size(); ++bin) {
-    const std::int32_t c = components.grown[bin];
-    if (c < 0) {
-      continue;
-    }
-    const Sides& whole = of_component[static_cast<std::size_t>(c)];
-    const double prior = (whole.over - whole.under) / (whole.over + whole.under + 2);
-    for (std::size_t i = faces_.first(bin); i < faces_.first(bin + 1); ++i) {
-      const Sides& own = of_face[static_cast<std::size_t>(faces_.piece(i).face)];
-      const double beside = (own.over - own.under + kPrior * prior) / (own.over + own.under + kPrior);
-      const double gap = (own.open_over - own.open_under) / (own.open_over + own.open_under + 2);
-      probability[i] = 1 / (1 + std::exp(-6 * (beside + 0.4 * gap)));
+    return false;
+  };
+  std::size_t bin = 0;
+  for (int iy = 0; iy < grid.ny; ++iy) {
+    for (int ix = 0; ix < grid.nx; ++ix, ++bin) {
+      LevelSides here;
+      here.over = over_.at(level * grid.size() + bin) > 0 ? 1 : 0;
+      here.under = under_.at(level * grid.size() + bin) > 0 ? 1 : 0;
+      const bool on = occupied[level][bin] != 0;
+      if (!on && (here.over + here.under == 0 || !near_surface(ix, iy))) {
+        continue;
+      }
+      if (on) {
+        add_gap(level, bin, occupied, here);
+      }
+      for (std::size_t i = faces_.first(bin); i < faces_.first(bin + 1); ++i) {
+        sides[static_cast<std::size_t>(faces_.piece(i).face)] += here;
+      }
     }
   }
-  return probability;
+  return sides;
 }
 
-void LevelRasters::weigh_level(std::size_t level, const std::vector<std::vector<std::uint8_t>>& occupied,
-                               FaceWeights& weights) const {
+template <class CountOf>
+std::vector<float> LevelRasters::covered_share(const CountOf& count_of) const {
   const PlanGrid& grid = faces_.grid();
   std::vector<float> points(grid.size(), 0.0F);
   std::vector<float> areas(grid.size(), 0.0F);
+  bool any = false;
   for (std::size_t bin = 0; bin < grid.size(); ++bin) {
     for (std::size_t i = faces_.first(bin); i < faces_.first(bin + 1); ++i) {
-      points[bin] +=
-          static_cast<float>(on_.at(level * faces_.pieces() + i) + sloped_.at(level * faces_.pieces() + i));
+      points[bin] += static_cast<float>(count_of(i));
       areas[bin] += faces_.piece(i).area;
     }
+    any = any || points[bin] > 0;
+  }
+  std::vector<float> share(complex_.faces(), 0.0F);
+  if (!any) {
+    return share;
   }
   const std::vector<float> density = local_density(points, areas, grid.nx, grid.ny);
-  const std::vector<double> p_floor = floor_probability(level, occupied);
   std::vector<double> area(complex_.faces(), 0.0);
-  std::vector<double> floor(complex_.faces(), 0.0);
-  std::vector<double> ceiling(complex_.faces(), 0.0);
+  std::vector<double> covered(complex_.faces(), 0.0);
   for (std::size_t bin = 0; bin < grid.size(); ++bin) {
     for (std::size_t i = faces_.first(bin); i < faces_.first(bin + 1); ++i) {
       const FaceRaster::Piece& piece = faces_.piece(i);
       const auto f = static_cast<std::size_t>(piece.face);
       area[f] += piece.area;
-      const std::uint32_t flat = on_.at(level * faces_.pieces() + i);
-      const std::uint32_t sloped = sloped_.at(level * faces_.pieces() + i);
-      if (flat + sloped == 0) {
-        continue;
-      }
-      const double covered = piece.area * occupancy_weight(density[bin], piece.area);
-      const double floor_share = p_floor[i] * flat / (flat + sloped);
-      floor[f] += covered * floor_share;
-      ceiling[f] += covered * (1 - floor_share);
-      weights.level_points[complex_.level_face(f, level)] += flat;
+      covered[f] += count_of(i) > 0 ? piece.area * occupancy_weight(density[bin], piece.area) : 0;
     }
   }
+  for (std::size_t f = 0; f < share.size(); ++f) {
+    share[f] = area[f] > 0 ? static_cast<float>(std::min(1.0, covered[f] / area[f])) : 0.0F;
+  }
+  return share;
+}
+
+void LevelRasters::weigh_level(std::size_t level, const Occupied& occupied, FaceWeights& weights) const {
+  const std::size_t base = level * faces_.pieces();
+  std::vector<std::uint32_t> sloped(complex_.faces(), 0);
+  for (std::size_t i = 0; i < faces_.pieces(); ++i) {
+    const auto f = static_cast<std::size_t>(faces_.piece(i).face);
+    weights.level_points[complex_.level_face(f, level)] += on_.at(base + i);
+    sloped[f] += sloped_.at(base + i);
+  }
+  const std::vector<float> omega =
+      covered_share([&](std::size_t i) { return on_.at(base + i) + sloped_.at(base + i); });
+  std::copy(omega.begin(), omega.end(),
+            weights.level_omega.begin() + static_cast<std::ptrdiff_t>(complex_.level_face(0, level)));
+  const std::vector<double> p_floor =
+      floor_probability(complex_, weights, level, sides_of_faces(level, occupied));
   for (std::size_t f = 0; f < complex_.faces(); ++f) {
-    const double covered = floor[f] + ceiling[f];
-    if (area[f] > 0 && covered > 0) {
-      const double omega = std::min(1.0, covered / area[f]);
-      const std::size_t i = complex_.level_face(f, level);
-      weights.level_omega[i] = static_cast<float>(omega);
-      weights.level_floor[i] = static_cast<float>(omega * floor[f] / covered);
-      weights.level_ceiling[i] = static_cast<float>(omega * ceiling[f] / covered);
-    }
+    const std::size_t i = complex_.level_face(f, level);
+    const double flat = weights.level_points[i];
+    // A sloped surface counts as the underside of a roof.
+    const double floor = flat > 0 ? p_floor[f] * flat / (flat + sloped[f]) : 0;
+    weights.level_floor[i] = static_cast<float>(omega[f] * floor);
+    weights.level_ceiling[i] = static_cast<float>(omega[f] * (1 - floor));
   }
+}
+
+void LevelRasters::weigh_slopes(std::size_t layer, FaceWeights& weights) const {
+  const std::size_t base = layer * faces_.pieces();
+  const std::vector<float> share = covered_share([&](std::size_t i) { return slope_.at(base + i); });
+  std::copy(share.begin(), share.end(),
+            weights.cell_slope.begin() + static_cast<std::ptrdiff_t>(complex_.cell(0, layer)));
 }
 
 void LevelRasters::weigh(FaceWeights& weights) const {
@@ -160,9 +166,14 @@ void LevelRasters::weigh(FaceWeights& weights) const {
   weights.level_floor.assign(faces, 0);
   weights.level_ceiling.assign(faces, 0);
   weights.level_points.assign(faces, 0);
-  const std::vector<std::vector<std::uint8_t>> occupied = occupied_bins();
-  tbb::parallel_for(std::size_t{0}, complex_.levels.size(),
-                    [&](std::size_t level) { weigh_level(level, occupied, weights); });
+  weights.cell_slope.assign(complex_.cells(), 0);
+  const Occupied occupied = occupied_bins();
+  tbb::parallel_for(std::size_t{0}, complex_.levels.size(), [&](std::size_t level) {
+    weigh_level(level, occupied, weights);
+    if (level < complex_.layers()) {
+      weigh_slopes(level, weights);
+    }
+  });
 }
 
 }  // namespace roomcut

@@ -34,24 +34,41 @@ std::int32_t PointSorter::wall_of(SurfaceClass surface, double theta) const {
       }
     }
   } else if (surface == SurfaceClass::kNone) {
-    int around = 0;
-    for (const Candidate& c : candidates_) {
-      around += std::abs(c.e) < tolerances_.wall_alone ? 1 : 0;
-      if (std::abs(c.e) < best_e) {
-        best = c.line;
-        best_e = std::abs(c.e);
-      }
-    }
-    best = around == 1 ? best : -1;  // in a corner it could be either wall's
+    best = wall_of_unclassed();
   }
   return best;
+}
+
+std::int32_t PointSorter::wall_of_unclassed() const {
+  const Candidate* best = nullptr;
+  for (const Candidate& c : candidates_) {
+    if (best == nullptr || std::abs(c.e) < std::abs(best->e)) {
+      best = &c;
+    }
+  }
+  if (best == nullptr || std::abs(best->e) >= tolerances_.wall_reach) {
+    return -1;
+  }
+  for (const Candidate& c : candidates_) {
+    if (c.line == best->line || std::abs(c.e) >= tolerances_.wall_alone) {
+      continue;
+    }
+    // In a corner the point could be either wall's. Between the two faces of a thin wall, whose voxels hold
+    // both and so have no plane, it is the face's on which it lies within the noise.
+    const bool other_face = parallel(c.line, best->line) && std::abs(best->e) < tolerances_.wall_tight &&
+                            2 * std::abs(best->e) < std::abs(c.e);
+    if (!other_face) {
+      return -1;
+    }
+  }
+  return best->line;
 }
 
 bool PointSorter::parallel(std::int32_t a, std::int32_t b) const {
   return angle_between(line(a).theta, line(b).theta) <= tolerances_.azimuth;
 }
 
-void PointSorter::add_beside_walls(const Vec2& p, double z, const NearLevel& near, bool on_level) {
+void PointSorter::add_beside_walls(const Vec2& p, std::size_t level) {
   for (const Candidate& c : candidates_) {
     const double distance = std::abs(c.e);
     if (distance < tolerances_.beside_low || distance > tolerances_.beside_high) {
@@ -68,12 +85,7 @@ void PointSorter::add_beside_walls(const Vec2& p, double z, const NearLevel& nea
     if (hidden) {
       continue;
     }
-    const double t = line(c.line).along(p);
-    if (on_level) {
-      walls_.add_level_beside(c.line, c.e > 0, t, near.level);
-    } else {
-      walls_.add_beside(c.line, c.e > 0, t, z);
-    }
+    walls_.add_level_beside(c.line, c.e > 0, line(c.line).along(p), level);
   }
 }
 
@@ -127,21 +139,34 @@ void PointSorter::add(const Vec3& point, SurfaceClass surface, std::uint8_t azim
   const bool loose =
       surface == SurfaceClass::kNone && wall < 0 && off < std::min(tolerances_.level_tight, near.reach);
   const bool on_level = flat || loose;
-  const bool sloped = surface == SurfaceClass::kSloped && off < std::min(tolerances_.slope_reach, near.reach);
+  const bool sloped = surface == SurfaceClass::kSloped;
   if (on_level || sloped) {
-    const std::int64_t piece = levels_.faces().find(p);
-    if (piece >= 0 && on_level) {
-      levels_.add_on(near.level, static_cast<std::size_t>(piece));
-    } else if (piece >= 0) {
-      levels_.add_sloped(near.level, static_cast<std::size_t>(piece));
+    const std::int64_t found = levels_.faces().find(p);
+    if (found >= 0) {
+      const auto piece = static_cast<std::size_t>(found);
+      if (on_level) {
+        levels_.add_on(near.level, piece);
+      } else {
+        add_sloped(piece, near, layer, z);
+      }
     }
   }
-  add_beside_walls(p, z, near, on_level);
-  if (!on_level && !sloped) {
+  if (on_level) {
+    add_beside_walls(p, near.level);
+  } else {
     add_beside_levels(p, z);
     if (wall < 0) {
       add_inside(p, z, near);
     }
+  }
+}
+
+void PointSorter::add_sloped(std::size_t piece, const NearLevel& near, std::size_t layer, double z) {
+  if (std::abs(near.dz) < std::min(tolerances_.slope_reach, near.reach)) {
+    levels_.add_sloped(near.level, piece);
+  }
+  if (z > complex_.levels.front() && z < complex_.levels.back()) {
+    levels_.add_slope(layer, piece);
   }
 }
 

@@ -40,9 +40,11 @@ class PointSorter {
 
   NearLevel nearest_level(double z) const;
   std::int32_t wall_of(SurfaceClass surface, double theta) const;
-  void add_beside_walls(const Vec2& p, double z, const NearLevel& near, bool on_level);
+  void add_beside_walls(const Vec2& p, std::size_t level);
+  void add_sloped(std::size_t piece, const NearLevel& near, std::size_t layer, double z);
   void add_beside_levels(const Vec2& p, double z);
   void add_inside(const Vec2& p, double z, const NearLevel& near);
+  std::int32_t wall_of_unclassed() const;
   bool parallel(std::int32_t a, std::int32_t b) const;
   const PlanLine& line(std::int32_t index) const { return lines_.line(index); }
 

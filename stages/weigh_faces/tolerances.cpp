@@ -15,6 +15,7 @@ Tolerances resolve_tolerances(const WeighFacesParams& params, const CloudHeader&
   const double tau = params.tau_m.value_or(std::clamp(0.6 * spacing, 0.04, 0.15));
   t.bin = 2 * tau;
   t.wall_reach = params.wall_reach_m.value_or(std::max(0.04, std::min(3 * noise, 0.055)));
+  t.wall_tight = std::max(0.012, 2.5 * noise);
   t.wall_alone = std::max(0.12, 2.5 * t.wall_reach);
   t.azimuth = params.azimuth_rad;
   t.level_reach = params.level_reach_m.value_or(std::max(0.06, 6 * noise));

@@ -12,7 +12,8 @@ struct Tolerances {
   double wall_reach;  ///< largest distance of a wall point from its line
   double
       wall_alone;  ///< a point without a class belongs to a line only if no other passes within this distance
-  double azimuth;  ///< largest angle between a wall point's normal and its line's [rad]
+  double wall_tight;  ///< … or if the others are parallel and it lies this close to the line: thin walls [m]
+  double azimuth;     ///< largest angle between a wall point's normal and its line's [rad]
   double level_reach;              ///< largest distance of a horizontal point from its level
   double level_tight;              ///< the same for points without a class
   double slope_reach;              ///< largest distance of a sloped point from the level it covers

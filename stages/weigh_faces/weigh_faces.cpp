@@ -44,8 +44,9 @@ void FaceWeigher::add(const CloudTile& tile) {
 
 FaceWeights FaceWeigher::weigh() const {
   FaceWeights weights;
-  state_->walls.weigh(weights);
+  state_->walls.weigh_coverage(weights);
   state_->levels.weigh(weights);
+  state_->walls.weigh_sides(weights);
   weights.cell_points.resize(state_->complex.cells());
   for (std::size_t c = 0; c < weights.cell_points.size(); ++c) {
     weights.cell_points[c] = state_->inside.at(c);

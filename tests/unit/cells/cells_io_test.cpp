@@ -51,7 +51,7 @@ class CellsIo : public testing::Test {
   DataTerms terms() const {
     DataTerms terms;
     for (auto* values : {&terms.kappa, &terms.vertical, &terms.around, &terms.winding, &terms.surface_m2,
-                         &terms.observed, &terms.beta}) {
+                         &terms.behind, &terms.sky, &terms.observed, &terms.beta}) {
       values->assign(6, 0.25F);
     }
     terms.vertical[2] = -1;
@@ -73,6 +73,7 @@ class CellsIo : public testing::Test {
     weights.level_ceiling.assign(9, 0.75F);
     weights.level_points.assign(9, 4000000000U);
     weights.cell_points.assign(6, 9);
+    weights.cell_slope.assign(6, 0.375F);
     return weights;
   }
 
@@ -126,12 +127,15 @@ TEST_F(CellsIo, EvidenceAndLabelsComeBackAsTheyWere) {
   EXPECT_EQ(w.level_ceiling, weights().level_ceiling);
   EXPECT_EQ(w.level_points, weights().level_points);
   EXPECT_EQ(w.cell_points, weights().cell_points);
+  EXPECT_EQ(w.cell_slope, weights().cell_slope);
 
   write_data_terms(folder_ / "terms.h5", terms(), cells_, provenance_);
   const DataTerms t = read_data_terms(folder_ / "terms.h5", cells_);
   EXPECT_EQ(t.vertical, terms().vertical);
   EXPECT_EQ(t.winding, terms().winding);
   EXPECT_EQ(t.surface_m2, terms().surface_m2);
+  EXPECT_EQ(t.behind, terms().behind);
+  EXPECT_EQ(t.sky, terms().sky);
   EXPECT_EQ(t.d_empty, terms().d_empty);
   EXPECT_EQ(t.d_solid, terms().d_solid);
 

@@ -45,10 +45,11 @@ class ExtractProgram : public testing::Test {
     weights.wall_points.assign(walls, 0);
     weights.level_points.assign(levels, 0);
     weights.cell_points.assign(complex.cells(), 0);
+    weights.cell_slope.assign(complex.cells(), 0);
     write_weights(folder / "weights.h5", weights, cells, {});
     DataTerms terms;
     for (auto* values : {&terms.kappa, &terms.vertical, &terms.around, &terms.winding, &terms.surface_m2,
-                         &terms.observed, &terms.beta}) {
+                         &terms.behind, &terms.sky, &terms.observed, &terms.beta}) {
       values->assign(complex.cells(), 0);
     }
     terms.d_empty.assign(complex.cells(), 0);

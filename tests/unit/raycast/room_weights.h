@@ -18,6 +18,7 @@ inline FaceWeights no_weights(const CellComplex& c) {
   w.level_ceiling.assign(flats, 0);
   w.level_points.assign(flats, 0);
   w.cell_points.assign(c.cells(), 0);
+  w.cell_slope.assign(c.cells(), 0);
   return w;
 }
 

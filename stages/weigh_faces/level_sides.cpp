@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/weigh_faces/level_sides.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace roomcut {
+namespace {
+
+constexpr float kCovered = 0.1F;  // coverage with which a face belongs to a surface
+constexpr float kWall = 0.5F;     // coverage with which a wall separates
+constexpr double kPrior = 10;     // bins that the surface's evidence is worth against a face's own
+constexpr double kGap = 0.4;      // weight of the gaps: suspended ceilings under a plenum forbid more
+constexpr double kSteepness = 6;
+
+std::size_t root_of(std::vector<std::size_t>& parent, std::size_t face) {
+  while (parent[face] != face) {
+    parent[face] = parent[parent[face]];
+    face = parent[face];
+  }
+  return face;
+}
+
+/// Per face the lowest face of the surface that it belongs to.
+std::vector<std::size_t> surfaces(const CellComplex& complex, const FaceWeights& weights, std::size_t level) {
+  std::vector<std::size_t> parent(complex.faces());
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto covered = [&](std::size_t face) {
+    return weights.level_omega[complex.level_face(face, level)] > kCovered;
+  };
+  for (std::size_t e = 0; e < complex.edges.size(); ++e) {
+    if (complex.edges[e].left < 0 || complex.edges[e].right < 0) {
+      continue;
+    }
+    auto a = static_cast<std::size_t>(complex.edges[e].left);
+    auto b = static_cast<std::size_t>(complex.edges[e].right);
+    const bool wall = (level > 0 && weights.wall_omega[complex.wall_face(e, level - 1)] > kWall) ||
+                      (level < complex.layers() && weights.wall_omega[complex.wall_face(e, level)] > kWall);
+    if (!wall && covered(a) && covered(b)) {
+      a = root_of(parent, a);
+      b = root_of(parent, b);
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  for (std::size_t f = 0; f < parent.size(); ++f) {
+    parent[f] = root_of(parent, f);
+  }
+  return parent;
+}
+
+}  // namespace
+
+std::vector<double> floor_probability(const CellComplex& complex, const FaceWeights& weights,
+                                      std::size_t level, const std::vector<LevelSides>& sides) {
+  const std::vector<std::size_t> surface = surfaces(complex, weights, level);
+  std::vector<LevelSides> whole(sides.size());
+  for (std::size_t f = 0; f < sides.size(); ++f) {
+    whole[surface[f]] += sides[f];
+  }
+  std::vector<double> probability(sides.size());
+  for (std::size_t f = 0; f < sides.size(); ++f) {
+    const LevelSides& own = sides[f];
+    const LevelSides& all = whole[surface[f]];
+    const double prior = (all.over - all.under) / (all.over + all.under + 2);
+    const double beside = (own.over - own.under + kPrior * prior) / (own.over + own.under + kPrior);
+    const double gap = (all.open_over - all.open_under) / (all.open_over + all.open_under + 2);
+    probability[f] = 1 / (1 + std::exp(-kSteepness * (beside + kGap * gap)));
+  }
+  return probability;
+}
+
+}  // namespace roomcut
