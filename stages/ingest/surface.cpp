@@ -66,11 +66,11 @@ void settle(VoxelSurface& chosen, int& level, const SurfaceAt& surface_at) {
 /// scan lines: then its area counts, or better that of the next one, since three lines in three cells are
 /// more than a fair share. Holes at every level are the border of a surface.
 template <class SurfaceAt>
-float area_over_gaps(const VoxelSurface& chosen, int level, const SurfaceAt& surface_at) {
+float area_over_gaps(const VoxelSurface& chosen, int first, const SurfaceAt& surface_at) {
   float area = chosen.area;
   int whole = 0;
-  for (int coarser = level + 1; coarser <= kLast && whole < 2; ++coarser) {
-    const VoxelSurface surface = surface_at(coarser);
+  for (int level = first; level <= kLast && whole < 2; ++level) {
+    const VoxelSurface surface = surface_at(level);
     if (surface.surface == chosen.surface && surface.whole) {
       area = surface.area;
       ++whole;
@@ -168,13 +168,15 @@ VoxelSurface SurfaceFinder::choose(const TileGrid& grid, const UnitScale& scale,
     }
     ++level;
   }
+  const int expected = level;
   VoxelSurface chosen = surface_at(level);
   while (!chosen.resolved && level < kLast) {
     chosen = surface_at(++level);
   }
+  const bool on_lines = level > expected;  // finer neighbourhoods saw single scan lines
   settle(chosen, level, surface_at);
-  if (chosen.surface != SurfaceClass::kNone && !chosen.whole) {
-    chosen.area = area_over_gaps(chosen, level, surface_at);
+  if (chosen.surface != SurfaceClass::kNone && (on_lines || !chosen.whole)) {
+    chosen.area = area_over_gaps(chosen, chosen.whole ? level : level + 1, surface_at);
   }
   return chosen;
 }
