@@ -5,9 +5,8 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <set>
 
-#include "stages/slice/surface_graph.h"
+#include "stages/slice/plan_mask.h"
 
 namespace roomcut {
 namespace {
@@ -145,28 +144,11 @@ std::size_t flat_end(const Density& density, std::size_t top, std::size_t limit,
   return i;
 }
 
-using Plan = std::set<std::pair<std::int32_t, std::int32_t>>;  ///< plan cells (iy, ix) of kUprightPlan
-
-/// The plan cells in which surfaces lie, with their neighbours.
-Plan plan_of(const std::vector<SurfaceComponent>& surfaces, double raster_m) {
-  Plan plan;
-  const double scale = raster_m / kUprightPlan;
-  for (const SurfaceComponent& surface : surfaces) {
-    for (const SurfaceCell& cell : surface.cells) {
-      const auto ix = static_cast<std::int32_t>(std::floor((cell.ix + 0.5) * scale));
-      const auto iy = static_cast<std::int32_t>(std::floor((cell.iy + 0.5) * scale));
-      for (std::int32_t dy = -1; dy <= 1; ++dy) {
-        for (std::int32_t dx = -1; dx <= 1; ++dx) plan.insert({iy + dy, ix + dx});
-      }
-    }
-  }
-  return plan;
-}
-
 /// A level that may still turn out to be furniture.
 struct Candidate {
   Level level;
   std::vector<SurfaceComponent> surfaces;
+  bool floor = false;  ///< walls stand on it
 };
 
 Candidate measure(const HeightSurvey& survey, const std::vector<SurfaceCell>& cells, const HeightMode& mode) {
@@ -186,31 +168,27 @@ Candidate measure(const HeightSurvey& survey, const std::vector<SurfaceCell>& ce
   return candidate;
 }
 
-/// Area of walls in the 30 cm over (+1) or under (-1) a level, where it has surface.
-double walls_beside(const Candidate& candidate, const std::vector<UprightBlock>& upright, double raster_m,
-                    int side) {
-  const Plan plan = plan_of(candidate.surfaces, raster_m);
-  double area = 0;
-  for (const UprightBlock& block : upright) {
-    const double away = side * ((block.iz + 0.5) * kUprightHeight - candidate.level.z);
-    if (away > 0.05 && away < 0.30 && plan.contains({block.iy, block.ix})) area += block.area_m2;
+/// Walls stand on a floor and end at a ceiling: compares their area in the 30 cm over and under the level.
+bool is_floor(const Candidate& candidate, const HeightSurvey& survey, PlanMask plan) {
+  for (const SurfaceComponent& surface : candidate.surfaces) {
+    for (const SurfaceCell& cell : surface.cells) plan.add(cell);
   }
-  return area;
-}
-
-/// Walls stand on a floor and end at a ceiling.
-bool is_floor(const Candidate& candidate, const HeightSurvey& survey) {
-  return walls_beside(candidate, survey.upright, survey.raster_m, +1) >
-         walls_beside(candidate, survey.upright, survey.raster_m, -1);
+  double balance = 0;
+  for (const UprightBlock& block : survey.upright) {
+    const double above = (block.iz + 0.5) * kUprightHeight - candidate.level.z;
+    if (std::abs(above) < 0.05 || std::abs(above) > 0.30 || !plan.contains(block)) continue;
+    balance += above > 0 ? block.area_m2 : -block.area_m2;
+  }
+  return balance > 0;
 }
 
 /// Whether all large surfaces of a candidate are furniture on a larger floor among the others.
-bool only_furniture(const Candidate& candidate, const std::vector<Candidate>& all, const HeightSurvey& survey,
-                    const std::vector<SurfaceCell>& cells, double smallest) {
+bool only_furniture(const Candidate& candidate, const std::vector<Candidate>& all, const CellIndex& index,
+                    double raster_m, double smallest) {
   const auto stands_on = [&](const SurfaceComponent& surface) {
     return std::any_of(all.begin(), all.end(), [&](const Candidate& other) {
-      return other.level.area_m2 > candidate.level.area_m2 && other.level.component_m2 >= smallest &&
-             is_furniture(surface, other.level, cells, survey.raster_m) && is_floor(other, survey);
+      return other.floor && other.level.area_m2 > candidate.level.area_m2 &&
+             is_furniture(surface, other.level, index, raster_m);
     });
   };
   return std::all_of(
@@ -260,10 +238,15 @@ std::vector<Level> find_levels(const HeightSurvey& survey, const std::vector<Sur
     largest = std::max(largest, candidates.back().level.component_m2);
   }
   const double smallest = std::max(0.5, std::min(rules.min_component_m2, 0.5 * largest));
+  const CellIndex index(cells);
+  const PlanMask empty_plan(cells, survey.raster_m);
+  for (Candidate& candidate : candidates) {
+    candidate.floor = candidate.level.component_m2 >= smallest && is_floor(candidate, survey, empty_plan);
+  }
   std::vector<Level> levels;
   for (const Candidate& candidate : candidates) {
     if (candidate.level.component_m2 >= smallest &&
-        !only_furniture(candidate, candidates, survey, cells, smallest)) {
+        !only_furniture(candidate, candidates, index, rules.raster_m, smallest)) {
       levels.push_back(candidate.level);
     } else if (rejected != nullptr) {
       rejected->push_back(candidate.level);
@@ -272,7 +255,7 @@ std::vector<Level> find_levels(const HeightSurvey& survey, const std::vector<Sur
   return levels;
 }
 
-bool is_furniture(const SurfaceComponent& surface, const Level& floor, const std::vector<SurfaceCell>& cells,
+bool is_furniture(const SurfaceComponent& surface, const Level& floor, const CellIndex& all,
                   double raster_m) {
   constexpr double kLargest = 12, kLowest = 0.25, kHighest = 1.3, kWidest = 1.6, kOpen = 0.4;
   constexpr double kOverFloor = 0.25;
@@ -280,7 +263,6 @@ bool is_furniture(const SurfaceComponent& surface, const Level& floor, const std
   for (const SurfaceCell& cell : surface.cells) z += cell.z / static_cast<double>(surface.cells.size());
   if (z < floor.z + kLowest || z > floor.z + kHighest) return false;
   const CellIndex own(surface.cells);
-  const CellIndex all(cells);
   const auto radius = std::max(2, static_cast<std::int32_t>(std::ceil(0.35 / raster_m)));
   std::size_t border = 0, open = 0, over_floor = 0;
   for (const SurfaceCell& cell : surface.cells) {
@@ -305,9 +287,13 @@ bool is_furniture(const SurfaceComponent& surface, const Level& floor, const std
 void add_caps(std::vector<Level>& levels, const HeightSurvey& survey, const std::vector<SurfaceCell>& cells,
               double reach_m) {
   if (levels.empty()) return;
-  Plan plan;
-  for (const Level& level : levels)
-    plan.merge(plan_of(components(cells, level.lo, level.hi, survey.raster_m), survey.raster_m));
+  PlanMask plan(cells, survey.raster_m);
+  for (const SurfaceCell& cell : cells) {
+    const bool in_level = std::any_of(levels.begin(), levels.end(), [&](const Level& level) {
+      return level.lo <= cell.z && cell.z <= level.hi;
+    });
+    if (in_level) plan.add(cell);
+  }
   std::map<std::int32_t, double> above, below;
   double total = 0;
   for (const UprightBlock& block : survey.upright) {
@@ -315,7 +301,7 @@ void add_caps(std::vector<Level>& levels, const HeightSurvey& survey, const std:
     const double z = (block.iz + 0.5) * kUprightHeight;
     const bool over = z > levels.back().z + reach_m;
     const bool under = z < levels.front().z - reach_m;
-    if ((!over && !under) || !plan.contains({block.iy, block.ix})) continue;
+    if ((!over && !under) || !plan.contains(block)) continue;
     if (over) above[static_cast<std::int32_t>((z - levels.back().z) / kUprightHeight)] += block.area_m2;
     if (under) below[static_cast<std::int32_t>((levels.front().z - z) / kUprightHeight)] += block.area_m2;
   }

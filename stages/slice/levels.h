@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "common/slices/slices.h"
-#include "stages/slice/surfaces.h"
+#include "stages/slice/surface_graph.h"
 
 namespace roomcut {
 
@@ -37,9 +37,9 @@ std::vector<Level> find_levels(const HeightSurvey& survey, const std::vector<Sur
 
 /// Whether a surface 0.25 … 1.3 m above a floor is a table or a counter rather than a floor of its own: the
 /// lower level's floor is seen under a quarter of it; or it is smaller than 12 m^2 or narrower than 1.6 m
-/// (twice area by border), and that floor goes on beside 40 % of its border.
-bool is_furniture(const SurfaceComponent& surface, const Level& floor, const std::vector<SurfaceCell>& cells,
-                  double raster_m);
+/// (twice area by border), and that floor goes on beside 40 % of its border. `all` finds the cells of the
+/// whole building.
+bool is_furniture(const SurfaceComponent& surface, const Level& floor, const CellIndex& all, double raster_m);
 
 /// Adds a level where walls or sloped surfaces over the building's own footprint go on farther than `reach_m`
 /// beyond the lowest or highest level: the floor or ceiling there was not seen. Less than 1 m^2 or 2 % of all

@@ -34,29 +34,36 @@ class DisjointSets {
   std::vector<std::size_t> parent_;
 };
 
-/// Finds cells by their place. Cells must be sorted by (iy, ix, z) and outlive the index.
+/// Finds cells by their place: one entry per column of their box. Cells must be sorted by (iy, ix, z) and
+/// outlive it.
 class CellIndex {
  public:
   explicit CellIndex(const std::vector<SurfaceCell>& cells) : cells_(cells) {
     if (cells.empty()) return;
     iy0_ = cells.front().iy;
-    first_.assign(static_cast<std::size_t>(cells.back().iy - iy0_) + 2, cells.size());
-    for (std::size_t i = cells.size(); i-- > 0;) first_[static_cast<std::size_t>(cells[i].iy - iy0_)] = i;
-    for (std::size_t r = first_.size() - 1; r-- > 0;) first_[r] = std::min(first_[r], first_[r + 1]);
+    ny_ = cells.back().iy - iy0_ + 1;
+    std::int32_t ix1 = ix0_ = cells.front().ix;
+    for (const SurfaceCell& cell : cells) {
+      ix0_ = std::min(ix0_, cell.ix);
+      ix1 = std::max(ix1, cell.ix);
+    }
+    nx_ = ix1 - ix0_ + 1;
+    const auto columns = static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_);
+    first_.resize(columns + 1);
+    std::size_t column = 0;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const std::size_t own = index(cells[i].ix - ix0_, cells[i].iy - iy0_);
+      while (column <= own) first_[column++] = static_cast<std::uint32_t>(i);
+    }
+    while (column <= columns) first_[column++] = static_cast<std::uint32_t>(cells.size());
   }
 
   /// The cells [first, second) of row iy with ix0 <= ix <= ix1.
   std::pair<std::size_t, std::size_t> find(std::int32_t iy, std::int32_t ix0, std::int32_t ix1) const {
-    if (first_.empty() || iy < iy0_ || iy >= iy0_ + static_cast<std::int32_t>(first_.size()) - 1)
-      return {0, 0};
-    const auto row = static_cast<std::size_t>(iy - iy0_);
-    const auto begin = cells_.begin() + static_cast<std::ptrdiff_t>(first_[row]);
-    const auto end = cells_.begin() + static_cast<std::ptrdiff_t>(first_[row + 1]);
-    const auto from =
-        std::lower_bound(begin, end, ix0, [](const SurfaceCell& c, std::int32_t ix) { return c.ix < ix; });
-    const auto to =
-        std::upper_bound(from, end, ix1, [](std::int32_t ix, const SurfaceCell& c) { return ix < c.ix; });
-    return {static_cast<std::size_t>(from - cells_.begin()), static_cast<std::size_t>(to - cells_.begin())};
+    const std::int32_t from = std::max(ix0 - ix0_, 0);
+    const std::int32_t to = std::min(ix1 - ix0_, nx_ - 1);
+    if (iy < iy0_ || iy >= iy0_ + ny_ || from > to) return {0, 0};
+    return {first_[index(from, iy - iy0_)], first_[index(to, iy - iy0_) + 1]};
   }
 
   /// Whether a cell with lo <= z <= hi lies within `radius` columns of (ix, iy).
@@ -71,9 +78,13 @@ class CellIndex {
   }
 
  private:
+  std::size_t index(std::int32_t x, std::int32_t y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(x);
+  }
+
   const std::vector<SurfaceCell>& cells_;
-  std::int32_t iy0_ = 0;
-  std::vector<std::size_t> first_;
+  std::int32_t ix0_ = 0, iy0_ = 0, nx_ = 0, ny_ = 0;
+  std::vector<std::uint32_t> first_;
 };
 
 /// How many columns a cell reaches: 1, or 2.5 spacings of its points where they are sparse, at most 5.
@@ -87,15 +98,17 @@ template <class Connected>
 DisjointSets connect_cells(const std::vector<SurfaceCell>& cells, double raster_m, Connected connected) {
   DisjointSets sets(cells.size());
   const CellIndex index(cells);
+  std::vector<std::int32_t> reach(cells.size());
+  std::transform(cells.begin(), cells.end(), reach.begin(),
+                 [&](const SurfaceCell& c) { return reach_of(c, raster_m); });
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const SurfaceCell& cell = cells[i];
-    const std::int32_t reach = reach_of(cell, raster_m);
-    for (std::int32_t dy = 0; dy <= reach;
+    for (std::int32_t dy = 0; dy <= reach[i];
          ++dy) {  // the other half of the neighbours meets this cell from there
       const auto [from, to] =
-          index.find(cell.iy - dy, cell.ix - reach, dy == 0 ? cell.ix - 1 : cell.ix + reach);
+          index.find(cell.iy - dy, cell.ix - reach[i], dy == 0 ? cell.ix - 1 : cell.ix + reach[i]);
       for (std::size_t j = from; j < to; ++j) {
-        const std::int32_t near = std::min(reach, reach_of(cells[j], raster_m));
+        const std::int32_t near = std::min(reach[i], reach[j]);
         const std::int32_t dx = cell.ix - cells[j].ix;
         if (dx * dx + dy * dy <= near * near && connected(cells[j], cell)) sets.join(i, j);
       }

@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "stages/slice/cell_table.h"
+#include "stages/slice/fixed_point.h"
 
 namespace roomcut {
 namespace {
@@ -41,22 +42,18 @@ struct Sums {
   CellTable<AreaSum> upright;
 };
 
-std::int32_t cell_of(double coordinate, double edge) {
-  return static_cast<std::int32_t>(std::floor(coordinate / edge));
-}
-
 void add_patch(CellTable<PatchSum>& table, const CloudTile& tile, std::size_t i, double raster_m) {
-  const CellKey key{cell_of(tile.x[i], raster_m), cell_of(tile.y[i], raster_m),
-                    cell_of(tile.z[i], kPatchBin)};
+  const CellKey key{floor_to_int(tile.x[i] / raster_m), floor_to_int(tile.y[i] / raster_m),
+                    floor_to_int(tile.z[i] / kPatchBin)};
   const double above_bin = tile.z[i] - key.iz * kPatchBin;
-  table.at(key) += {1, std::llround(tile.area[i] / kAreaUnit),
-                    std::llround(above_bin * static_cast<double>(tile.area[i]) / kMomentUnit)};
+  table.at(key) += {1, to_units(tile.area[i], kAreaUnit),
+                    to_units(above_bin * static_cast<double>(tile.area[i]), kMomentUnit)};
 }
 
 void add_upright(CellTable<AreaSum>& table, const CloudTile& tile, std::size_t i) {
-  const CellKey key{cell_of(tile.x[i], kUprightPlan), cell_of(tile.y[i], kUprightPlan),
-                    cell_of(tile.z[i], kUprightHeight)};
-  table.at(key) += {std::llround(tile.area[i] / kAreaUnit)};
+  const CellKey key{floor_to_int(tile.x[i] / kUprightPlan), floor_to_int(tile.y[i] / kUprightPlan),
+                    floor_to_int(tile.z[i] / kUprightHeight)};
+  table.at(key) += {to_units(tile.area[i], kAreaUnit)};
 }
 
 VerticalHistogram histogram(double z0, double bin_m, const tbb::enumerable_thread_specific<Sums>& threads,
@@ -113,7 +110,7 @@ HeightSurvey survey_heights(const CloudHeader& header, const TileSource& tiles, 
       if (surface == SurfaceClass::kHorizontal) {
         const double position = (tile.z[i] - z0) / bin_m;
         const auto bin = static_cast<std::size_t>(std::clamp(position, 0.0, static_cast<double>(bins - 1)));
-        sums.histogram[bin] += std::llround(tile.area[i] / kAreaUnit);
+        sums.histogram[bin] += to_units(tile.area[i], kAreaUnit);
         add_patch(sums.patches, tile, i, raster_m);
       } else if (surface != SurfaceClass::kNone) {
         add_upright(sums.upright, tile, i);

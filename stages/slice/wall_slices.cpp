@@ -10,6 +10,7 @@
 #include <mutex>
 
 #include "stages/slice/cell_table.h"
+#include "stages/slice/fixed_point.h"
 
 namespace roomcut {
 namespace {
@@ -73,13 +74,13 @@ void add_tile(const CloudTile& tile, const std::vector<EvidenceRange>& ranges, d
     const int slice = range_of(ranges, tile.z[i]);
     if (slice < 0) continue;
     const EvidenceRange& range = ranges[static_cast<std::size_t>(slice)];
-    const double column = std::floor(tile.x[i] / tau_m);
-    const double row = std::floor(tile.y[i] / tau_m);
-    EvidenceSum& sum = table.at({static_cast<std::int32_t>(column), static_cast<std::int32_t>(row), slice});
+    const std::int32_t column = floor_to_int(tile.x[i] / tau_m);
+    const std::int32_t row = floor_to_int(tile.y[i] / tau_m);
+    EvidenceSum& sum = table.at({column, row, slice});
     ++sum.count;
-    sum.x += std::llround((tile.x[i] - column * tau_m) / kLengthUnit);
-    sum.y += std::llround((tile.y[i] - row * tau_m) / kLengthUnit);
-    sum.area += std::llround(tile.area[i] / kAreaUnit);
+    sum.x += to_units(std::max(0.0, tile.x[i] - column * tau_m), kLengthUnit);
+    sum.y += to_units(std::max(0.0, tile.y[i] - row * tau_m), kLengthUnit);
+    sum.area += to_units(tile.area[i], kAreaUnit);
     const int bin = std::min(static_cast<int>((tile.z[i] - range.lo) / range.bin_m()), range.bins - 1);
     sum.bins |= std::uint64_t{1} << static_cast<unsigned>(bin);
     if (surface == SurfaceClass::kWall) {
