@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 
 #include "common/artefact/atomic_file.h"
@@ -20,13 +21,34 @@ void end_by_signal(int number) {
   ::raise(number);
 }
 
-void end_by_assertion(int /*number*/) {
+void end_by_bug(int /*number*/) {
   remove_temporary_files();
   static constexpr std::string_view kText =
-      "error: a check inside the program failed; this is a bug, please report it\n";
+      "error: a check inside the program failed, or it crashed; this is a bug, please report it\n";
   [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, kText.data(), kText.size());
   ::_exit(static_cast<int>(ExitCode::kBug));
 }
+
+/// On a stack of its own, since an overflown stack is one of the causes.
+void catch_crashes() {
+  static std::array<char, 65536> memory;
+  stack_t stack{};
+  stack.ss_sp = memory.data();
+  stack.ss_size = memory.size();
+  ::sigaltstack(&stack, nullptr);
+  struct sigaction action {};
+  action.sa_handler = end_by_bug;
+  action.sa_flags = SA_ONSTACK;
+  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL}) {
+    ::sigaction(number, &action, nullptr);
+  }
+}
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
 
 }  // namespace
 
@@ -34,7 +56,10 @@ void install_signal_handlers() {
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
     ::signal(number, end_by_signal);
   }
-  ::signal(SIGABRT, end_by_assertion);
+  ::signal(SIGABRT, end_by_bug);
+  if (!kSanitized) {  // the sanitizer has more to say about these
+    catch_crashes();
+  }
   ::signal(SIGXFSZ, SIG_IGN);
 }
 

@@ -50,6 +50,20 @@ TEST(Process, whose_assertion_fails_has_a_bug_and_leaves_no_file) {
   EXPECT_TRUE(std::filesystem::is_empty(folder / "20_slice"));
 }
 
+TEST(Process, that_crashes_has_a_bug_and_leaves_no_file) {
+  for (const int number : {SIGSEGV, SIGFPE}) {
+    const TemporaryFolder folder;
+    const int status = status_of(folder, [number] { ::raise(number); });
+#ifndef __SANITIZE_ADDRESS__
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 1);
+    EXPECT_TRUE(std::filesystem::is_empty(folder / "20_slice"));
+#else
+    EXPECT_NE(status, 0);
+#endif
+  }
+}
+
 TEST(Process, that_fills_the_disk_ends_with_5_and_leaves_no_file) {
   const TemporaryFolder folder;
   const int status = status_of(folder, [] {
