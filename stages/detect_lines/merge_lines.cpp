@@ -26,8 +26,11 @@ std::pair<double, double> interval_on(const Line2& line, const LineCandidate& we
 
 bool duplicates(const LineCandidate& kept, const LineCandidate& weaker, const MergeRules& rules) {
   if (angle_between(kept.line.theta, weaker.line.theta) >= rules.angle_rad) return false;
-  if (std::abs(kept.line.distance(centre(weaker))) >= rules.distance_m) return false;
   const auto [t0, t1] = interval_on(kept.line, weaker);
+  const bool beside = t0 >= kept.support.t0 && t1 <= kept.support.t1 &&
+                      weaker.support.support_m < rules.minor_share * kept.support.support_m;
+  const double distance_m = beside ? std::max(rules.distance_m, rules.minor_distance_m) : rules.distance_m;
+  if (std::abs(kept.line.distance(centre(weaker))) >= distance_m) return false;
   return t0 <= kept.support.t1 + rules.reach_m && t1 >= kept.support.t0 - rules.reach_m;
 }
 

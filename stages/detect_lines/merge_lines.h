@@ -16,7 +16,10 @@ struct LineCandidate {
 struct MergeRules {
   double distance_m = 0;  ///< lines nearer than this, at the weaker one's support centre, are one
   double angle_rad = 0;
-  double reach_m = 2.0;  ///< supports farther apart along the line do not meet in the partition
+  double minor_distance_m =
+      0.06;  ///< the same for a short line beside a long one: a door frame, not a wall's other face
+  double minor_share = 0.3;  ///< shorter than this share of the other's support
+  double reach_m = 2.0;      ///< supports farther apart along the line do not meet in the partition
 };
 
 /// Joins near-duplicates to the stronger line, which keeps its place and takes over cells and extent: one

@@ -11,7 +11,7 @@ namespace {
 using testing::add_cells;
 using testing::kRules;
 
-const MergeRules kMerge{0.04, 0.03, 2.0};
+const MergeRules kMerge{0.04, 0.03};
 
 LineCandidate candidate(WallCells& cells, const Line2& line, double t0, double t1) {
   const auto first = static_cast<std::uint32_t>(cells.size());
@@ -46,6 +46,12 @@ TEST(MergeLines, TheStrongerLineTakesOverTheExtent) {
 TEST(MergeLines, DistancesAreTakenAtTheSupportNotAtTheOrigin) {
   // 1 degree apart and equal d, but 50 m away from the origin: 87 cm between them.
   EXPECT_EQ(merged_pair({0.4, 5}, 50, 56, {0.4 + 0.0175, 5}, 50, 56).size(), 2U);
+}
+
+TEST(MergeLines, AShortLineBesideALongOneIsJoinedFromFartherOff) {
+  EXPECT_EQ(merged_pair({0.4, 5}, 0, 6, {0.4, 5.05}, 2, 3).size(), 1U);
+  EXPECT_EQ(merged_pair({0.4, 5}, 0, 6, {0.4, 5.05}, 2, 5).size(), 2U);
+  EXPECT_EQ(merged_pair({0.4, 5}, 0, 6, {0.4, 5.07}, 2, 3).size(), 2U);
 }
 
 TEST(MergeLines, TheFacesOfAThinWallStayTwo) {
