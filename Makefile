@@ -80,7 +80,7 @@ $(stages:%=plot-%): ready
 	$(pipeline) plot $(@:plot-%=%)
 
 bench: build
-	@sh tests/bench/bench.sh "$$BUILD"
+	@bash tests/bench/bench.sh "$$BUILD"
 
 tidy: build
 	@sh .ci/install-packages.sh debian-packages-ci.txt
