@@ -77,7 +77,7 @@ void add_line(const Adjustment& adjustment, std::size_t i, ceres::Problem& probl
   problem.AddParameterBlock(block.data(), 2);
   problem.AddResidualBlock(new PriorCost(unmoved(line), line.prior), nullptr, block.data());
   for (const LineResidual& residual : line.residuals) {
-    problem.AddResidualBlock(new ObservationCost(residual), new ceres::CauchyLoss(kCauchy), block.data());
+    problem.AddResidualBlock(new ObservationCost(residual), new ceres::TukeyLoss(kTukeyLoss), block.data());
   }
   const int group = adjustment.classes.class_of.empty() ? -1 : adjustment.classes.class_of[i];
   if (group >= 0 && adjustment.regularity_rad > 0) {

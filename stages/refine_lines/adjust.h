@@ -17,8 +17,8 @@ struct Adjustment {
   double regularity_rad = 0;   ///< standard deviation of a line's direction about its class; 0 = no classes
 };
 
-/// Minimises the sum of Cauchy(kCauchy) losses of all residuals, the priors and one residual per member of a
-/// class. One thread, so that equal input gives equal bits. Returns whether Ceres converged; poses stay as
+/// Minimises the sum of Tukey(kTukeyLoss) losses of all residuals, the priors and one residual per member of
+/// a class. One thread, so that equal input gives equal bits. Returns whether Ceres converged; poses stay as
 /// they were otherwise.
 bool adjust(Adjustment& adjustment);
 

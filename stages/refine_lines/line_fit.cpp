@@ -4,6 +4,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 
 namespace roomcut {
 
@@ -11,11 +13,15 @@ namespace {
 
 constexpr int kIterations = 50;
 constexpr double kMadToSigma = 1.4826;
-/// Huber's scale of a Cauchy fit on normal noise: what the measured one is drawn towards.
+/// Huber's scale of a Tukey fit on normal noise: what the measured one is drawn towards.
 constexpr double kExpectedScale = 1.053;
 /// Weight of that expectation, in observations.
 constexpr double kExpectedWeight = 20;
+constexpr double kBound = 2.5;  ///< standard deviations at which a residual is an outlier
 constexpr double kParameters = 2;
+constexpr double kTypicalUnevenness_m = 0.003;
+constexpr double kSurface_m = 0.015;  ///< a wall leans and bends less; what is further off is another surface
+constexpr double kNeighbours_m = 0.5;  ///< observations further apart say nothing of correlation
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -23,8 +29,19 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+enum class Loss { kCauchy, kTukey };
+constexpr double kCauchy = 2.385;  ///< wide: finds the way from a bad start
+
+double weight(double r, Loss loss) {
+  const double u = r / (loss == Loss::kCauchy ? kCauchy : kTukeyLoss);
+  if (loss == Loss::kCauchy) {
+    return 1 / (1 + u * u);
+  }
+  return std::abs(u) < 1 ? (1 - u * u) * (1 - u * u) : 0;
+}
+
 /// One Gauss-Newton step; returns its size relative to the prior.
-double step(const LineProblem& problem, Pose& pose) {
+double step(const LineProblem& problem, Loss loss, Pose& pose) {
   const Pose home = unmoved(problem);
   const LinePrior& prior = problem.prior;
   Eigen::Matrix2d normal =
@@ -33,10 +50,10 @@ double step(const LineProblem& problem, Pose& pose) {
   Eigen::Vector2d right(-(pose.turn - home.turn) * normal(0, 0), -(pose.shift - home.shift) * normal(1, 1));
   for (const LineResidual& residual : problem.residuals) {
     const double r = residual.value(pose);
-    const double weight = 1 / (1 + r * r / (kCauchy * kCauchy));
+    const double w = weight(r, loss);
     const Eigen::Vector2d j(residual.by_turn(pose), residual.by_shift());
-    normal += weight * j * j.transpose();
-    right -= weight * r * j;
+    normal += w * j * j.transpose();
+    right -= w * r * j;
   }
   const Eigen::Vector2d change = normal.ldlt().solve(right);
   pose.turn += change(0);
@@ -44,19 +61,84 @@ double step(const LineProblem& problem, Pose& pose) {
   return std::abs(change(0)) / prior.turn_rad + std::abs(change(1)) / prior.shift_m;
 }
 
-Pose solve(const LineProblem& problem, Pose pose) {
-  for (int i = 0; i < kIterations && step(problem, pose) > 1e-9; ++i) {
+Pose solve(const LineProblem& problem, Pose pose, Loss loss = Loss::kTukey) {
+  for (int i = 0; i < kIterations && step(problem, loss, pose) > 1e-9; ++i) {
   }
   return pose;
 }
 
-/// What the observations scatter beyond their sigma [m].
+/// Offsets where the line may lie [m]: where it came, the median of the observations, and the two fullest 5
+/// mm of them.
+std::vector<double> start_offsets(const LineProblem& problem, const Pose& home) {
+  constexpr double kBin_m = 0.005;
+  std::vector<double> offsets;
+  std::map<long, int> bins;
+  for (const LineResidual& residual : problem.residuals) {
+    offsets.push_back(residual.value(home) * residual.sigma);
+    ++bins[std::lround(offsets.back() / kBin_m)];
+  }
+  std::vector<std::pair<int, long>> fullest;
+  for (const auto& [bin, count] : bins) {
+    fullest.emplace_back(-count, bin);
+  }
+  std::sort(fullest.begin(), fullest.end());
+  std::vector<double> starts{0, median(offsets)};
+  for (std::size_t i = 0; i < std::min<std::size_t>(2, fullest.size()); ++i) {
+    starts.push_back(kBin_m * static_cast<double>(fullest[i].second));
+  }
+  return starts;
+}
+
+/// Truncated squares: what is not on the surface costs the same however far it is, so that lying across two
+/// surfaces doesn't pay.
+double cost(const LineProblem& problem, const Pose& pose) {
+  const Pose home = unmoved(problem);
+  const double turn = (pose.turn - home.turn) / problem.prior.turn_rad;
+  const double shift = (pose.shift - home.shift) / problem.prior.shift_m;
+  double sum = turn * turn + shift * shift;
+  for (const LineResidual& residual : problem.residuals) {
+    sum += std::min(std::pow(residual.value(pose), 2), kBound * kBound);
+  }
+  return sum;
+}
+
+/// The best of the fits from several starts, on a scale that tells a wall from what hangs or stands before
+/// it. A line half of which is hidden by a curtain lies on the wall or on the curtain then, never across.
+Pose choose_surface(LineProblem problem) {
+  const Pose home = unmoved(problem);
+  for (LineResidual& residual : problem.residuals) {
+    residual.sigma = std::hypot(residual.sigma, kTypicalUnevenness_m);
+  }
+  std::vector<Pose> candidates;
+  for (const double offset : start_offsets(problem, home)) {
+    candidates.push_back(solve(problem, {home.turn, home.shift + offset}));
+    candidates.push_back(solve(problem, solve(problem, {home.turn, home.shift + offset}, Loss::kCauchy)));
+  }
+  Pose best = home;
+  double least = std::numeric_limits<double>::max();
+  for (const Pose& pose : candidates) {
+    const double sum = cost(problem, pose);
+    if (sum < least && std::abs(pose.turn - home.turn) <= kBound * problem.prior.turn_rad) {
+      least = sum;
+      best = pose;
+    }
+  }
+  return best;
+}
+
+/// What the observations of the surface at `pose` scatter beyond their sigma [m].
 double unevenness(const LineProblem& problem, const Pose& pose) {
   std::vector<double> deviations;
   std::vector<double> variances;
   for (const LineResidual& residual : problem.residuals) {
-    deviations.push_back(std::abs(residual.value(pose)) * residual.sigma);
-    variances.push_back(residual.sigma * residual.sigma);
+    const double deviation = std::abs(residual.value(pose)) * residual.sigma;
+    if (deviation <= std::max(kSurface_m, 3 * residual.sigma)) {
+      deviations.push_back(deviation);
+      variances.push_back(residual.sigma * residual.sigma);
+    }
+  }
+  if (deviations.empty()) {
+    return kTypicalUnevenness_m;
   }
   const double spread = kMadToSigma * median(deviations);
   return std::sqrt(std::max(0.0, spread * spread - median(variances)));
@@ -68,16 +150,14 @@ double correlation_factor(const LineProblem& problem, const Pose& pose) {
   double products = 0;
   double squares = 0;
   double pairs = 0;
-  double previous = 0;
-  const auto bounded = [&](const LineResidual& r) { return std::clamp(r.value(pose), -kCauchy, kCauchy); };
+  const auto bounded = [&](const LineResidual& r) { return std::clamp(r.value(pose), -kBound, kBound); };
   for (std::size_t i = 0; i < problem.residuals.size(); ++i) {
     const double r = bounded(problem.residuals[i]);
     squares += r * r;
-    if (i > 0) {
-      products += r * previous;
+    if (i > 0 && problem.spacing[i - 1] > 0 && problem.spacing[i - 1] < kNeighbours_m) {
+      products += r * bounded(problem.residuals[i - 1]);
       pairs += 1;
     }
-    previous = r;
   }
   if (pairs < 3 || squares <= 0) {
     return 1;
@@ -93,9 +173,11 @@ double scale(const LineProblem& problem, const Pose& pose) {
   double slopes = 0;
   for (const LineResidual& residual : problem.residuals) {
     const double r = residual.value(pose);
-    const double q = r * r / (kCauchy * kCauchy);
-    squares += r * r / ((1 + q) * (1 + q));
-    slopes += (1 - q) / ((1 + q) * (1 + q));
+    const double q = r * r / (kTukeyLoss * kTukeyLoss);
+    if (q < 1) {
+      squares += r * r * std::pow(1 - q, 4);
+      slopes += (1 - q) * (1 - 5 * q);
+    }
   }
   const double n = static_cast<double>(problem.residuals.size());
   const double slope = std::max(0.3, slopes / n);
@@ -140,12 +222,16 @@ LineFit fit_line(LineProblem& problem) {
     fit.covariance = pose_covariance(problem, fit.pose);
     return fit;
   }
-  fit.pose = solve(problem, fit.pose);
-  fit.unevenness_m = unevenness(problem, fit.pose);
-  for (LineResidual& residual : problem.residuals) {
-    residual.sigma = std::hypot(residual.sigma, fit.unevenness_m);
+  const std::vector<LineResidual> expected = problem.residuals;
+  fit.pose = choose_surface(problem);
+  for (int round = 0; round < 2; ++round) {
+    problem.residuals = expected;
+    fit.unevenness_m = unevenness(problem, fit.pose);
+    for (LineResidual& residual : problem.residuals) {
+      residual.sigma = std::hypot(residual.sigma, fit.unevenness_m);
+    }
+    fit.pose = solve(problem, fit.pose);
   }
-  fit.pose = solve(problem, fit.pose);
   fit.covariance = pose_covariance(problem, fit.pose);
   return fit;
 }

@@ -49,7 +49,8 @@ void body(StageRun& run, const RefineLinesParams& params) {
   const CellsFile cells = read_cells(run.input("cells"));
   const Labels labels = read_labels(run.input("labels"), cells);
   const CloudReader cloud(run.input("cloud"));
-  LineRefiner refiner(lines.content, cells.complex, labels.label, cloud.header().noise_m, params);
+  LineRefiner refiner(lines.content, cells.complex, labels.label, cloud.header().noise_m,
+                      cloud.header().density, params);
   if (!params.band_m) {
     run.chose("band_m", refiner.band_m(), "the larger of 6 cm and 5 x noise");
   }

@@ -13,6 +13,9 @@ namespace {
 
 constexpr double kAzimuthFits_rad = 17.0 * std::numbers::pi / 180.0;
 constexpr std::uint32_t kFewestPoints = 4;
+constexpr double kPatchPoints = 20;
+constexpr double kLowestZone_m = 0.5;
+constexpr double kTypicalBin_m = 0.1;
 constexpr double kEdge_m =
     0.10;  ///< points without a plane this near a level belong to the edge of floor or ceiling
 
@@ -30,42 +33,70 @@ bool strip_meets_box(const Line2& line, double t0, double t1, double half, const
 
 }  // namespace
 
+/// The lines near one tile, with what the inner loop needs of them.
+struct LineObserver::Near {
+  const Track* track;
+  const LineFaces* faces;
+  Vec2 normal, direction;
+};
+
+/// A point's place on the line that it belongs to.
+struct LineObserver::Hit {
+  std::int32_t patch = -1;
+  double offset = 0;  ///< from the line [m]
+  double along = 0;   ///< from the bin's start [m]
+};
+
 LineObserver::LineObserver(const std::vector<LineFaces>& lines, const std::vector<bool>& active,
-                           const std::vector<double>& levels, double band_m, double noise_m)
+                           const std::vector<double>& levels, double band_m, double noise_m, double density)
     : lines_(lines), levels_(levels), band_m_(band_m), noise_m_(noise_m) {
-  std::size_t bins = 0;
+  const double height = levels.back() - levels.front();
+  const double wanted = std::max(kLowestZone_m, kPatchPoints / (std::max(density, 1.0) * kTypicalBin_m));
+  zones_ = static_cast<std::size_t>(std::max(1.0, std::round(height / wanted)));
+  zone_m_ = height / static_cast<double>(zones_);
+  std::int32_t patches = 0;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (!active[i] || lines[i].bins == 0) {
-      continue;
+    if (active[i] && lines[i].bins > 0) {
+      tracks_.push_back(make_track(i, patches));
     }
-    Track track{i, bins, {}};
-    for (int step = 0; step < kAzimuthSteps; ++step) {
-      const double azimuth = azimuth_of(static_cast<std::uint8_t>(step));
-      track.fits.push_back(angle_between(azimuth, lines[i].line.theta) <= kAzimuthFits_rad ? 1 : 0);
-    }
-    tracks_.push_back(std::move(track));
-    bins += lines[i].bins;
   }
   track_of_.assign(lines.size(), tracks_.size());
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
     track_of_[tracks_[k].line] = k;
   }
-  histograms_ = std::make_unique<std::atomic<std::uint64_t>[]>(bins * OffsetHistogram::kBins);
-  along_ = std::make_unique<std::atomic<std::int64_t>[]>(bins);
+  histograms_ = std::make_unique<std::atomic<std::uint64_t>[]>(static_cast<std::size_t>(patches) *
+                                                               OffsetHistogram::kBins);
+  along_ = std::make_unique<std::atomic<std::int64_t>[]>(static_cast<std::size_t>(patches));
 }
 
-std::vector<const LineObserver::Track*> LineObserver::tracks_near(const Vec2& low, const Vec2& high) const {
-  std::vector<const Track*> near;
-  for (const Track& track : tracks_) {
-    const LineFaces& faces = lines_[track.line];
-    if (strip_meets_box(faces.line, faces.t0, faces.t1, band_m_, low, high)) {
-      near.push_back(&track);
+LineObserver::Track LineObserver::make_track(std::size_t line, std::int32_t& patches) const {
+  const LineFaces& faces = lines_[line];
+  Track track{line, std::vector<std::int32_t>(faces.bins * zones_, -1), {}};
+  for (std::size_t bin = 0; bin < faces.bins; ++bin) {
+    for (std::size_t layer = 0; layer < faces.layers; ++layer) {
+      if (faces.side_at(bin, layer) != 0) {
+        const std::size_t last = zone_of(levels_[layer + 1]);
+        for (std::size_t zone = zone_of(levels_[layer]); zone <= last; ++zone) {
+          track.patch[bin * zones_ + zone] = 0;
+        }
+      }
     }
   }
-  return near;
+  for (std::int32_t& patch : track.patch) {
+    patch = patch < 0 ? -1 : patches++;
+  }
+  for (int step = 0; step < kAzimuthSteps; ++step) {
+    const double azimuth = azimuth_of(static_cast<std::uint8_t>(step));
+    track.fits.push_back(angle_between(azimuth, faces.line.theta) <= kAzimuthFits_rad ? 1 : 0);
+  }
+  return track;
 }
 
-void LineObserver::add(const CloudTile& tile) {
+std::size_t LineObserver::zone_of(double z) const {
+  return std::min(zones_ - 1, static_cast<std::size_t>(std::max(0.0, (z - levels_.front()) / zone_m_)));
+}
+
+std::vector<LineObserver::Near> LineObserver::lines_near(const CloudTile& tile) const {
   constexpr double kFar = std::numeric_limits<double>::max();
   Vec2 low(kFar, kFar);
   Vec2 high(-kFar, -kFar);
@@ -74,68 +105,70 @@ void LineObserver::add(const CloudTile& tile) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  struct Near {
-    const Track* track;
-    const LineFaces* faces;
-    Vec2 normal, direction;
-  };
   std::vector<Near> near;
-  for (const Track* track : tracks_near(low, high)) {
-    const LineFaces& faces = lines_[track->line];
-    near.push_back({track, &faces, faces.line.normal(), faces.line.direction()});
+  for (const Track& track : tracks_) {
+    const LineFaces& faces = lines_[track.line];
+    if (strip_meets_box(faces.line, faces.t0, faces.t1, band_m_, low, high)) {
+      near.push_back({&track, &faces, faces.line.normal(), faces.line.direction()});
+    }
   }
+  return near;
+}
+
+LineObserver::Hit LineObserver::find_line(const CloudTile& tile, std::size_t i,
+                                          const std::vector<Near>& near) const {
+  Hit hit;
+  const auto surface = static_cast<SurfaceClass>(tile.surface[i]);
+  const double z = tile.z[i];
+  const auto above = std::upper_bound(levels_.begin(), levels_.end(), z);
+  if (surface == SurfaceClass::kHorizontal || above == levels_.begin() || above == levels_.end()) {
+    return hit;
+  }
+  const bool upright = surface == SurfaceClass::kWall;
+  if (!upright && (*above - z < kEdge_m || z - *(above - 1) < kEdge_m)) {
+    return hit;
+  }
+  const auto layer = static_cast<std::size_t>(above - levels_.begin()) - 1;
+  const Vec2 p(tile.x[i], tile.y[i]);
+  double nearest = band_m_;
+  for (const Near& candidate : near) {
+    const LineFaces& faces = *candidate.faces;
+    const double e = candidate.normal.dot(p) - faces.line.d;
+    if (std::abs(e) >= nearest || (upright && candidate.track->fits[tile.azimuth[i]] == 0)) {
+      continue;
+    }
+    const double t = (candidate.direction.dot(p) - faces.t0) / faces.bin_m;
+    if (t < 0 || t >= static_cast<double>(faces.bins)) {
+      continue;
+    }
+    const auto bin = static_cast<std::size_t>(t);
+    if (faces.side_at(bin, layer) != 0) {
+      nearest = std::abs(e);
+      hit = {candidate.track->patch[bin * zones_ + zone_of(z)], e,
+             (t - static_cast<double>(bin)) * faces.bin_m};
+    }
+  }
+  return hit;
+}
+
+void LineObserver::add(const CloudTile& tile) {
+  const std::vector<Near> near = lines_near(tile);
   if (near.empty()) {
     return;
   }
   const double per_bin = OffsetHistogram::kBins / (2 * band_m_);
   std::uint64_t taken = 0;
   for (std::size_t i = 0; i < tile.size(); ++i) {
-    const auto surface = static_cast<SurfaceClass>(tile.surface[i]);
-    if (surface == SurfaceClass::kHorizontal) {
+    const Hit hit = find_line(tile, i, near);
+    if (hit.patch < 0) {
       continue;
     }
-    const bool upright = surface == SurfaceClass::kWall;
-    const Vec2 p(tile.x[i], tile.y[i]);
-    const auto above = std::upper_bound(levels_.begin(), levels_.end(), static_cast<double>(tile.z[i]));
-    if (above == levels_.begin() || above == levels_.end()) {
-      continue;
-    }
-    if (!upright && (*above - tile.z[i] < kEdge_m || tile.z[i] - *(above - 1) < kEdge_m)) {
-      continue;
-    }
-    const auto layer = static_cast<std::size_t>(above - levels_.begin()) - 1;
-    const Near* best = nullptr;
-    double nearest = band_m_;
-    double offset = 0;
-    double along = 0;
-    std::size_t place = 0;
-    for (const Near& candidate : near) {
-      const double e = candidate.normal.dot(p) - candidate.faces->line.d;
-      if (std::abs(e) >= nearest || (upright && candidate.track->fits[tile.azimuth[i]] == 0)) {
-        continue;
-      }
-      const double t = (candidate.direction.dot(p) - candidate.faces->t0) / candidate.faces->bin_m;
-      if (t < 0 || t >= static_cast<double>(candidate.faces->bins)) {
-        continue;
-      }
-      const auto bin = static_cast<std::size_t>(t);
-      if (candidate.faces->side_at(bin, layer) == 0) {
-        continue;
-      }
-      best = &candidate;
-      nearest = std::abs(e);
-      offset = e;
-      along = (t - static_cast<double>(bin)) * candidate.faces->bin_m;
-      place = candidate.track->first + bin;
-    }
-    if (best == nullptr) {
-      continue;
-    }
-    const double position = (offset + band_m_) * per_bin;
+    const auto patch = static_cast<std::size_t>(hit.patch);
+    const double position = (hit.offset + band_m_) * per_bin;
     const int bin = std::clamp(static_cast<int>(position), 0, OffsetHistogram::kBins - 1);
-    histograms_[place * OffsetHistogram::kBins + static_cast<std::size_t>(bin)].fetch_add(
+    histograms_[patch * OffsetHistogram::kBins + static_cast<std::size_t>(bin)].fetch_add(
         OffsetHistogram::pack(position - bin), std::memory_order_relaxed);
-    along_[place].fetch_add(std::llround(along * 1e6), std::memory_order_relaxed);
+    along_[patch].fetch_add(static_cast<std::int64_t>(hit.along * 1e6 + 0.5), std::memory_order_relaxed);
     ++taken;
   }
   points_.fetch_add(taken, std::memory_order_relaxed);
@@ -149,22 +182,24 @@ std::vector<Observation> LineObserver::observations(std::size_t i) const {
   const Track& track = tracks_[track_of_[i]];
   const LineFaces& faces = lines_[i];
   std::array<std::uint64_t, OffsetHistogram::kBins> histogram{};
-  for (std::size_t bin = 0; bin < faces.bins; ++bin) {
-    const std::size_t place = track.first + bin;
-    std::uint32_t count = 0;
-    for (std::size_t k = 0; k < histogram.size(); ++k) {
-      histogram[k] = histograms_[place * OffsetHistogram::kBins + k].load();
-      count += OffsetHistogram::count(histogram[k]);
-    }
-    if (count < kFewestPoints) {
-      continue;
-    }
-    const RobustOffset found = robust_offset(histogram, band_m_, noise_m_);
-    if (found.points >= kFewestPoints) {
-      const double t = faces.t0 + static_cast<double>(bin) * faces.bin_m +
-                       1e-6 * static_cast<double>(along_[place].load()) / count;
-      result.push_back({faces.line.at(t) + found.offset_m * faces.line.normal(), found.variance_m2,
-                        found.scatter_m2, found.points});
+  for (std::size_t zone = 0; zone < zones_; ++zone) {
+    for (std::size_t bin = 0; bin < faces.bins; ++bin) {
+      if (track.patch[bin * zones_ + zone] < 0) {
+        continue;
+      }
+      const auto patch = static_cast<std::size_t>(track.patch[bin * zones_ + zone]);
+      std::uint32_t count = 0;
+      for (std::size_t k = 0; k < histogram.size(); ++k) {
+        histogram[k] = histograms_[patch * OffsetHistogram::kBins + k].load();
+        count += OffsetHistogram::count(histogram[k]);
+      }
+      const RobustOffset found = robust_offset(histogram, band_m_, noise_m_);
+      if (found.points >= kFewestPoints) {
+        const double along = 1e-6 * static_cast<double>(along_[patch].load()) / count;
+        const double t = faces.t0 + static_cast<double>(bin) * faces.bin_m + along;
+        result.push_back({faces.line.at(t) + found.offset_m * faces.line.normal(), found.variance_m2,
+                          found.scatter_m2, found.points, static_cast<int>(zone)});
+      }
     }
   }
   return result;

@@ -12,19 +12,20 @@
 
 namespace roomcut {
 
-/// Where a wall's surface lies at one place along a line.
+/// Where a wall's surface lies in one patch: a piece of a line, a piece of height.
 struct Observation {
   Vec2 point;          ///< in plan [m]
   double variance_m2;  ///< of its distance from the line, as the noise and the number of points let expect
   double scatter_m2;   ///< mean square distance of its points from it
   std::uint32_t points;
+  int zone;  ///< piece of height, from below
 };
 
 /// A histogram of point offsets from a line. Each bin packs a count (upper 24 bits) and a fixed-point sum of
 /// positions inside the bin (lower 40): one order-free addition per point, and means without the bias of bin
 /// centres.
 struct OffsetHistogram {
-  static constexpr int kBins = 120;
+  static constexpr int kBins = 60;
   static constexpr int kSumBits = 40;
   static constexpr std::uint64_t kSteps = 1024;  ///< of position inside a bin
 
@@ -54,30 +55,39 @@ class LineObserver {
   /// `active[i]`: whether lines[i] takes part. `levels` as in CellComplex; lines, levels stay owned by the
   /// caller.
   LineObserver(const std::vector<LineFaces>& lines, const std::vector<bool>& active,
-               const std::vector<double>& levels, double band_m, double noise_m);
+               const std::vector<double>& levels, double band_m, double noise_m, double density);
 
   /// Adds the points of a tile that are on no horizontal surface. Thread-safe.
   void add(const CloudTile& tile);
 
-  /// Observations of line i, ascending along it; those with fewer than 4 points are left out.
+  /// Observations of line i, zone by zone from below, ascending along the line; patches with fewer than 4
+  /// points are left out.
   std::vector<Observation> observations(std::size_t i) const;
   std::uint64_t points() const { return points_.load(); }
 
  private:
   struct Track {
-    std::size_t line;                ///< index into lines
-    std::size_t first;               ///< of its first bin among all lines' bins
-    std::vector<std::uint8_t> fits;  ///< per azimuth step
+    std::size_t line;                 ///< index into lines
+    std::vector<std::int32_t> patch;  ///< bins × zones; index among all patches, -1 = no surface
+    std::vector<std::uint8_t> fits;   ///< per azimuth step
   };
-  std::vector<const Track*> tracks_near(const Vec2& low, const Vec2& high) const;
+  struct Near;
+  struct Hit;
+  Track make_track(std::size_t line, std::int32_t& patches) const;
+  std::size_t zone_of(double z) const;
+  std::vector<Near> lines_near(const CloudTile& tile) const;
+  Hit find_line(const CloudTile& tile, std::size_t i, const std::vector<Near>& near) const;
 
   const std::vector<LineFaces>& lines_;
   const std::vector<double>& levels_;
   double band_m_, noise_m_;
+  double zone_m_ = 0;
+  std::size_t zones_ = 1;
   std::vector<Track> tracks_;
   std::vector<std::size_t> track_of_;  ///< per line, tracks_.size() when inactive
   std::unique_ptr<std::atomic<std::uint64_t>[]> histograms_;
-  std::unique_ptr<std::atomic<std::int64_t>[]> along_;  ///< sum of micrometres from the bin's start
+  std::unique_ptr<std::atomic<std::int64_t>[]>
+      along_;  ///< per patch: sum of micrometres from the bin's start
   std::atomic<std::uint64_t> points_{0};
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "common/errors/codes.h"
 #include "stages/refine_lines/adjust.h"
@@ -19,7 +20,7 @@ namespace {
 constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr std::size_t kFewestObservations = 3;
 constexpr LinePrior kUsersPrior{0.02, 1.0 * kDeg};
-constexpr double kLoosePrior_rad = 2.0 * kDeg;
+constexpr double kLoosePrior_rad = 0.5 * kDeg;  ///< detection is better than that
 constexpr int kMergeRounds = 5;
 
 bool is_users(const WallLine& line) {
@@ -64,7 +65,7 @@ struct LineRefiner::State {
 };
 
 LineRefiner::LineRefiner(const WallLines& lines, const CellComplex& complex,
-                         const std::vector<std::uint8_t>& label, double noise_m,
+                         const std::vector<std::uint8_t>& label, double noise_m, double density,
                          const RefineLinesParams& params)
     : state_(new State{complex,
                        params,
@@ -105,7 +106,7 @@ LineRefiner::LineRefiner(const WallLines& lines, const CellComplex& complex,
                      "no wall line separates empty from solid space in the first cut",
                      "look at the labels of graphcut: is every cell solid?");
   }
-  s.observer = std::make_unique<LineObserver>(s.faces, active, complex.levels, s.band, noise_m);
+  s.observer = std::make_unique<LineObserver>(s.faces, active, complex.levels, s.band, noise_m, density);
 }
 
 LineRefiner::~LineRefiner() = default;
@@ -185,10 +186,9 @@ bool LineRefiner::State::merge_near(std::vector<Item>& items) {
                                 strong.wall.levels->end());
     }
     const Line2 line = strong.wall.line();
+    const auto place = [&](const Observation& o) { return std::pair(o.zone, line.along(o.point)); };
     std::stable_sort(strong.observations.begin(), strong.observations.end(),
-                     [&](const Observation& a, const Observation& b) {
-                       return line.along(a.point) < line.along(b.point);
-                     });
+                     [&](const Observation& a, const Observation& b) { return place(a) < place(b); });
     gone[of_item[k]] = true;
     ++result.merged;
   }
@@ -227,6 +227,16 @@ void set_ends(WallLine& wall, const Item& item, const Line2& line) {
   wall.b = line.at(high);
 }
 
+/// Length of the bins along the line that have at least one observation [m].
+double covered_length(const Item& item, const Line2& line) {
+  const double bin = item.faces.empty() ? 1 : item.faces.front().bin_m;
+  std::set<long> bins;
+  for (const Observation& o : item.observations) {
+    bins.insert(std::lround(std::floor(line.along(o.point) / bin)));
+  }
+  return bin * static_cast<double>(bins.size());
+}
+
 void set_measures(WallLine& wall, const Item& item, const Line2& line) {
   double squares = 0;
   double points = 0;
@@ -236,8 +246,7 @@ void set_measures(WallLine& wall, const Item& item, const Line2& line) {
     points += o.points;
   }
   wall.rms_m = points > 0 ? std::sqrt(squares / points) : 0;
-  const double bin = item.faces.empty() ? 0 : item.faces.front().bin_m;
-  wall.support_m = std::min(wall.length(), bin * static_cast<double>(item.observations.size()));
+  wall.support_m = std::min(wall.length(), covered_length(item, line));
   // A turn moves the support's centre by its distance from the centroid that the line turns about.
   const double arm = line.direction().dot(wall.centre() - item.problem.centre);
   const PoseCovariance& c = item.fit.covariance;

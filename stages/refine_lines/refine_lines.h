@@ -34,7 +34,7 @@ class LineRefiner {
   /// their plane. All are copied or consumed here, except `complex`, which must outlive the refiner. Throws
   /// StageError(kNoWallLines) when no line carries surface.
   LineRefiner(const WallLines& lines, const CellComplex& complex, const std::vector<std::uint8_t>& label,
-              double noise_m, const RefineLinesParams& params);
+              double noise_m, double density, const RefineLinesParams& params);
   ~LineRefiner();
 
   void add(const CloudTile& tile);

@@ -48,7 +48,7 @@ LineProblem made_line(Normal& random, double theta, double off, int count, doubl
   std::vector<Observation> observations;
   for (int i = 0; i < count; ++i) {
     const Vec2 p = truth.at(truth.along(line.at(0.1 * i))) + random(sigma) * truth.normal();
-    observations.push_back({p, sigma * sigma, sigma * sigma, 50});
+    observations.push_back({p, sigma * sigma, sigma * sigma, 50, 0});
   }
   return make_problem(line, line.at(0.05 * count), observations, {0.06, 2 * kDeg});
 }

@@ -34,7 +34,7 @@ Trial simulate(Normal& random, double noise, double per_m2) {
   CloudTile tile;
   add_wall(tile, random, truth, t0, t0 + length, per_m2, noise);
   const double band = std::max(0.06, 5 * noise);
-  LineObserver observer(lines, {true}, kLevels, band, noise);
+  LineObserver observer(lines, {true}, kLevels, band, noise, 500);
   observer.add(tile);
   LineProblem problem = make_problem(start, middle, observer.observations(0), kLoose);
   const LineFit fit = fit_line(problem);
@@ -77,11 +77,57 @@ TEST(LineFit, NinetyFivePercentIntervalsHoldForOffsetAndAngle) {
   }
 }
 
+TEST(LineFit, ALeaningWallIsTakenAtHalfHeightAndIsUncertain) {
+  // 3 cm out of plumb over 2.5 m, seen with 1 mm of noise.
+  const Line2 line{0, 2.0};
+  const std::vector<LineFaces> lines{whole_line(line, 0, 4)};
+  Normal random(14);
+  CloudTile tile;
+  add_wall(tile, random, line, 0, 4, 500, 0.001);
+  for (std::size_t i = 0; i < tile.size(); ++i) {
+    tile.x[i] += 0.012F * (tile.z[i] - 1.25F);
+  }
+  LineObserver observer(lines, {true}, kLevels, 0.06, 0.001, 500);
+  observer.add(tile);
+  LineProblem problem = make_problem(line, {2, 2}, observer.observations(0), kLoose);
+  const LineFit fit = fit_line(problem);
+  EXPECT_NEAR(fit.pose.shift - unmoved(problem).shift, 0, 0.001);
+  EXPECT_GT(std::sqrt(fit.covariance.shift_shift), 0.001);
+}
+
+TEST(LineFit, FurnitureBeforeTheLowerFifthDoesNotPull) {
+  const Line2 line{0, 2.0};
+  const std::vector<LineFaces> lines{whole_line(line, 0, 4)};
+  Normal random(15);
+  CloudTile tile;
+  add_wall(tile, random, line, 0, 4, 500, 0.004);
+  for (std::size_t i = 0; i < tile.size(); ++i) {
+    tile.x[i] += tile.z[i] < 0.5F ? 0.04F : 0.0F;
+  }
+  LineObserver observer(lines, {true}, kLevels, 0.06, 0.004, 500);
+  observer.add(tile);
+  LineProblem problem = make_problem(line, {2, 2}, observer.observations(0), kLoose);
+  EXPECT_NEAR(fit_line(problem).pose.shift - unmoved(problem).shift, 0, 0.0006);
+}
+
+TEST(LineFit, ALineHalfHiddenByACurtainDoesNotLieAcross) {
+  std::vector<Observation> observations;
+  Normal random(16);
+  for (int zone = 0; zone < 5; ++zone) {
+    for (int i = 0; i < 16; ++i) {
+      const double offset = (i < 8 ? 0.0 : 0.045) + random(0.002);
+      observations.push_back({{0.1 * i, offset}, 1e-6, 1e-6, 30, zone});
+    }
+  }
+  LineProblem problem = make_problem({std::numbers::pi / 2, 0}, {0.8, 0}, observations, {0.06, 0.5 * kDeg});
+  EXPECT_LT(std::abs(fit_line(problem).pose.turn), 0.35 * kDeg);
+}
+
 /// Observations every 10 cm of a line along x with the given offsets.
 std::vector<Observation> observed(const std::vector<double>& offsets, double sigma) {
   std::vector<Observation> result;
   for (std::size_t i = 0; i < offsets.size(); ++i) {
-    result.push_back({{0.1 * static_cast<double>(i), offsets[i]}, sigma * sigma, sigma * sigma, 50});
+    result.push_back({{0.1 * static_cast<double>(i), offsets[i]}, sigma * sigma, sigma * sigma, 50, 0});
   }
   return result;
 }

@@ -44,7 +44,7 @@ class RefineLines : public ::testing::Test {
   }
 
   Refinement refine() {
-    LineRefiner refiner(lines_, complex_, label_, kNoise, params_);
+    LineRefiner refiner(lines_, complex_, label_, kNoise, 300, params_);
     refiner.add(points_);
     return refiner.finish();
   }
@@ -150,7 +150,7 @@ TEST_F(RefineLines, TheOrderOfTheTilesDoesNotMatter) {
     half.azimuth.push_back(points_.azimuth[i]);
     half.area.push_back(points_.area[i]);
   }
-  LineRefiner refiner(lines_, complex_, label_, kNoise, params_);
+  LineRefiner refiner(lines_, complex_, label_, kNoise, 300, params_);
   refiner.add(halves[1]);
   refiner.add(halves[0]);
   const Refinement there = refiner.finish();
