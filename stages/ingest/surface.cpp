@@ -81,6 +81,19 @@ float area_over_gaps(const VoxelSurface& chosen, int first, const SurfaceAt& sur
   return area;
 }
 
+/// Calls visit(ix, iy, first voxel, last + 1) for each column of the tile itself that has any.
+template <class Visit>
+void for_own_columns(const VoxelLevel& level, Visit&& visit) {
+  for (int iy = level.halo(); iy < level.columns - level.halo(); ++iy) {
+    for (int ix = level.halo(); ix < level.columns - level.halo(); ++ix) {
+      const std::size_t column = level.column(ix, iy);
+      if (level.begin[column] < level.begin[column + 1]) {
+        visit(ix, iy, level.begin[column], level.begin[column + 1]);
+      }
+    }
+  }
+}
+
 void accumulate(const VoxelLevel& level, std::uint16_t z, Neighbourhood& around, NeighbourSum& sum) {
   around.visit(z, [&](std::uint32_t voxel, int bit) {
     sum.moments.add(level.moments[voxel]);
@@ -143,6 +156,30 @@ const VoxelSurface& SurfaceFinder::at_coarse(const TileGrid& grid, const UnitSca
   return cached.surface;
 }
 
+void SurfaceFinder::survey(const TileGrid& grid, const UnitScale& scale, int level) {
+  const VoxelLevel& voxels = grid.level(level);
+  std::vector<std::uint32_t>& counts = counts_[static_cast<std::size_t>(level)];
+  std::vector<Cached>& cache = cache_[static_cast<std::size_t>(level)];
+  counts.assign(voxels.size(), 0);
+  cache.assign(voxels.size(), {});
+  const auto parent_is_full = [&](std::uint32_t voxel) {
+    return level == kLast || counts_[static_cast<std::size_t>(level) + 1][voxels.parent[voxel]] >= kParentHas;
+  };
+  for_own_columns(voxels, [&](int ix, int iy, std::uint32_t first, std::uint32_t last) {
+    Neighbourhood around(voxels, ix, iy);
+    for (std::uint32_t voxel = first; voxel < last; ++voxel) {
+      around.visit(voxels.z[voxel], [&](std::uint32_t other, int) { counts[voxel] += voxels.count[other]; });
+      if (counts[voxel] < kParentHas && parent_is_full(voxel)) {
+        NeighbourSum sum;
+        accumulate(voxels, voxels.z[voxel], around, sum);
+        cache[voxel] = {surface_of(sum, grid.centre(level, ix, iy, voxels.z[voxel]),
+                                   scale.voxel_edge_m() * (1 << level), scale.unit_m(), params_),
+                        true};
+      }
+    }
+  });
+}
+
 VoxelSurface SurfaceFinder::choose(const TileGrid& grid, const UnitScale& scale, std::uint32_t voxel, int ix,
                                    int iy, Neighbourhood& around) {
   std::array<std::uint32_t, fixed_grid::kLevels> ancestor{voxel};
@@ -183,29 +220,21 @@ VoxelSurface SurfaceFinder::choose(const TileGrid& grid, const UnitScale& scale,
 
 const std::vector<VoxelSurface>& SurfaceFinder::find(const TileGrid& grid, const UnitScale& scale,
                                                      SurfaceEstimates& estimates) {
-  for (int i = 1; i < fixed_grid::kLevels; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    neighbour_counts(grid.level(i), counts_[k]);
-    cache_[k].assign(grid.level(i).size(), {});
+  for (int level = kLast; level > 0; --level) {
+    survey(grid, scale, level);
   }
   const VoxelLevel& finest = grid.level(0);
   result_.assign(finest.size(), {});
-  for (int iy = finest.halo(); iy < finest.columns - finest.halo(); ++iy) {
-    for (int ix = finest.halo(); ix < finest.columns - finest.halo(); ++ix) {
-      const std::size_t column = finest.column(ix, iy);
-      if (finest.begin[column] == finest.begin[column + 1]) {
-        continue;
-      }
-      Neighbourhood around(finest, ix, iy);
-      for (std::uint32_t voxel = finest.begin[column]; voxel < finest.begin[column + 1]; ++voxel) {
-        result_[voxel] = choose(grid, scale, voxel, ix, iy, around);
-        estimates.area.add(result_[voxel].area, finest.count[voxel]);
-        if (result_[voxel].noise > 0) {
-          estimates.noise.add(result_[voxel].noise);
-        }
+  for_own_columns(finest, [&](int ix, int iy, std::uint32_t first, std::uint32_t last) {
+    Neighbourhood around(finest, ix, iy);
+    for (std::uint32_t voxel = first; voxel < last; ++voxel) {
+      result_[voxel] = choose(grid, scale, voxel, ix, iy, around);
+      estimates.area.add(result_[voxel].area, finest.count[voxel]);
+      if (result_[voxel].noise > 0) {
+        estimates.noise.add(result_[voxel].noise);
       }
     }
-  }
+  });
   return result_;
 }
 

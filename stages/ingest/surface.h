@@ -51,6 +51,8 @@ class SurfaceFinder {
     VoxelSurface surface;
     bool known = false;
   };
+  /// Counts the neighbourhoods of a coarse level; fits those that will be asked for certainly.
+  void survey(const TileGrid& grid, const UnitScale& scale, int level);
   const VoxelSurface& at_coarse(const TileGrid& grid, const UnitScale& scale, int level, std::uint32_t voxel,
                                 int ix, int iy);
   /// The surface of voxel `voxel` at its own level 0 or at that of one of its ancestors.

@@ -85,27 +85,30 @@ void TileGrid::sort_points(const TilePoints& points) {
 void TileGrid::sum_moments(const UnitScale& scale) {
   VoxelLevel& level = levels_[0];
   level.clear(0);
+  level.begin.reserve(std::size_t{kColumns} * kColumns + 1);
+  level.reserve(sorted_.size());
   first_point_.clear();
-  std::uint32_t next_column = 0;
-  std::uint32_t voxel_key = ~0U;
-  for (std::size_t i = 0; i < sorted_.size(); ++i) {
-    const Point& point = sorted_[i];
-    const auto rx = static_cast<std::uint32_t>(scale.units(point.x) - corner_[0]);
-    const auto ry = static_cast<std::uint32_t>(scale.units(point.y) - corner_[1]);
-    const auto rz = static_cast<std::uint32_t>(scale.units(point.z) - corner_[2]);
-    const std::uint32_t key = std::uint32_t{point.column} << 16 | rz >> kVoxelBits;
-    if (key != voxel_key) {
-      for (; next_column <= point.column; ++next_column) {
-        level.begin.push_back(static_cast<std::uint32_t>(level.size()));
+  first_point_.reserve(sorted_.size() + 1);
+  const auto relative = [&](float metres, std::size_t axis) {
+    return static_cast<std::uint32_t>(scale.units(metres) - corner_[axis]);
+  };
+  for (std::size_t i = 0; i < sorted_.size();) {
+    const std::uint32_t column = sorted_[i].column;
+    const std::uint32_t height = relative(sorted_[i].z, 2) >> kVoxelBits;
+    level.begin.resize(std::max<std::size_t>(level.begin.size(), column + 1),
+                       static_cast<std::uint32_t>(level.size()));
+    first_point_.push_back(static_cast<std::uint32_t>(i));
+    Moments sum;
+    for (; i < sorted_.size() && sorted_[i].column == column; ++i) {
+      const std::uint32_t rz = relative(sorted_[i].z, 2);
+      if (rz >> kVoxelBits != height) {
+        break;
       }
-      voxel_key = key;
-      level.z.push_back(static_cast<std::uint16_t>(rz >> kVoxelBits));
-      level.count.push_back(0);
-      level.moments.emplace_back();
-      first_point_.push_back(static_cast<std::uint32_t>(i));
+      sum.add_point(relative(sorted_[i].x, 0), relative(sorted_[i].y, 1), rz);
     }
-    ++level.count.back();
-    level.moments.back().add_point(rx, ry, rz);
+    level.z.push_back(static_cast<std::uint16_t>(height));
+    level.count.push_back(static_cast<std::uint32_t>(i) - first_point_.back());
+    level.moments.push_back(sum);
   }
   level.begin.resize(std::size_t{kColumns} * kColumns + 1, static_cast<std::uint32_t>(level.size()));
   first_point_.push_back(static_cast<std::uint32_t>(sorted_.size()));

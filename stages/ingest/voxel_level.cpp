@@ -15,9 +15,18 @@ void VoxelLevel::clear(int at_level) {
   parent.clear();
 }
 
+void VoxelLevel::reserve(std::size_t voxels) {
+  z.reserve(voxels);
+  count.reserve(voxels);
+  moments.reserve(voxels);
+}
+
 void coarsen(VoxelLevel& fine, VoxelLevel& coarse) {
   coarse.clear(fine.level + 1);
   fine.parent.resize(fine.size());
+  coarse.begin.reserve(static_cast<std::size_t>(coarse.columns) * static_cast<std::size_t>(coarse.columns) +
+                       1);
+  coarse.reserve(fine.size() / 2);
   for (int iy = 0; iy < coarse.columns; ++iy) {
     for (int ix = 0; ix < coarse.columns; ++ix) {
       coarse.begin.push_back(static_cast<std::uint32_t>(coarse.size()));
@@ -51,24 +60,6 @@ void coarsen(VoxelLevel& fine, VoxelLevel& coarse) {
     }
   }
   coarse.begin.push_back(static_cast<std::uint32_t>(coarse.size()));
-}
-
-void neighbour_counts(const VoxelLevel& level, std::vector<std::uint32_t>& counts) {
-  counts.assign(level.size(), 0);
-  for (int iy = level.halo(); iy < level.columns - level.halo(); ++iy) {
-    for (int ix = level.halo(); ix < level.columns - level.halo(); ++ix) {
-      const std::size_t column = level.column(ix, iy);
-      if (level.begin[column] == level.begin[column + 1]) {
-        continue;
-      }
-      Neighbourhood around(level, ix, iy);
-      for (std::uint32_t voxel = level.begin[column]; voxel < level.begin[column + 1]; ++voxel) {
-        std::uint32_t sum = 0;
-        around.visit(level.z[voxel], [&](std::uint32_t other, int) { sum += level.count[other]; });
-        counts[voxel] = sum;
-      }
-    }
-  }
 }
 
 }  // namespace roomcut

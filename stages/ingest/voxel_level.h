@@ -28,6 +28,7 @@ struct VoxelLevel {
     return static_cast<std::size_t>(iy) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(ix);
   }
   void clear(int at_level);
+  void reserve(std::size_t voxels);
 };
 
 /// Joins 2 × 2 × 2 voxels each into `coarse` and notes the parents in `fine`.
@@ -70,8 +71,5 @@ class Neighbourhood {
   std::array<std::uint32_t, 9> at_{};
   std::array<std::uint32_t, 9> end_{};
 };
-
-/// Points in the 27 voxels around each voxel; 0 for voxels in the halo.
-void neighbour_counts(const VoxelLevel& level, std::vector<std::uint32_t>& counts);
 
 }  // namespace roomcut
