@@ -14,6 +14,11 @@ double sigmoid(double x) {
   return 1 / (1 + std::exp(-x));
 }
 
+/// Shares are sums of products and may leave their range by a rounding error, which readers refuse.
+float between(double low, double value, double high) {
+  return static_cast<float>(std::clamp(value, low, high));
+}
+
 }  // namespace
 
 double empty_log_odds(const CellEvidence& e) {
@@ -49,14 +54,14 @@ DataTerms cast_rays(const CellComplex& complex, const FaceWeights& weights, cons
           const std::size_t face = c % complex.faces();
           const std::size_t layer = c / complex.faces();
           const CellEvidence e = gather_evidence(complex, weights, walk, face, layer, params.rays, scratch);
-          terms.kappa[c] = static_cast<float>(e.kappa);
-          terms.vertical[c] = static_cast<float>(e.vertical.front - e.vertical.back);
-          terms.around[c] = static_cast<float>(e.around.front - e.around.back);
+          terms.kappa[c] = between(0, e.kappa, 1);
+          terms.vertical[c] = between(-1, e.vertical.front - e.vertical.back, 1);
+          terms.around[c] = between(-1, e.around.front - e.around.back, 1);
           terms.winding[c] = static_cast<float>(e.winding);
           terms.surface_m2[c] = static_cast<float>(e.front_m2 - e.back_m2);
-          terms.behind[c] = static_cast<float>(e.around.near_back);
-          terms.sky[c] = static_cast<float>(e.sky);
-          terms.observed[c] = static_cast<float>(e.around.front + e.around.back);
+          terms.behind[c] = between(0, e.around.near_back, 1);
+          terms.sky[c] = between(0, e.sky, 1);
+          terms.observed[c] = between(0, e.around.front + e.around.back, 1);
           const double beta = parity ? sigmoid(10 * (e.kappa - 0.5)) : sigmoid(empty_log_odds(e));
           const double depth = parity ? 0 : params.surface_depth_m;
           const double volume = complex.area(face) * complex.height(layer);
