@@ -84,7 +84,8 @@ struct FaceWeights {
   std::vector<float> level_ceiling;  ///< covered share by ceiling surface (empty below)
   std::vector<std::uint32_t> level_points;
   std::vector<std::uint32_t> cell_points;  ///< cells: points strictly inside, away from the cell's faces
-  std::vector<float> cell_slope;  ///< cells: share of the plan over which a sloped surface (roof) passes through
+  std::vector<float>
+      cell_slope;  ///< cells: share of the plan over which a sloped surface (roof) passes through
 };
 
 /// Evidence and data term per cell (paper §2, data term). Every evidence is kept, so that one sees why a cell
@@ -97,7 +98,8 @@ struct DataTerms {
   std::vector<float> winding;
   /// Covered area of the cell's own faces, + where it faces the cell, - where it turns its back [m^2].
   std::vector<float> surface_m2;
-  std::vector<float> behind;    ///< share of the rays that end close by on a face's back, 0 … 1: inside a wall or slab
+  std::vector<float>
+      behind;  ///< share of the rays that end close by on a face's back, 0 … 1: inside a wall or slab
   std::vector<float> sky;       ///< share of the rising rays that meet nothing at all: outdoors
   std::vector<float> observed;  ///< share of rays that end on a seen face: 0 = nothing is known of the cell
   std::vector<float> beta;      ///< probability that the cell is empty, 0 … 1

@@ -63,8 +63,8 @@ Usage usage_since(std::chrono::steady_clock::time_point start);
 Json run_log(const StageRun::State& state, const std::vector<Problem>& problems, int exit_code);
 
 /// SIGINT, SIGTERM, SIGHUP: temporary files go, then the process ends by the signal. SIGABRT (a failed
-/// assertion) and crashes: the same, with exit code 1. SIGXFSZ is ignored, so that a write over the limit is an error
-/// like a full disk.
+/// assertion) and crashes: the same, with exit code 1. SIGXFSZ is ignored, so that a write over the limit is
+/// an error like a full disk.
 void install_signal_handlers();
 
 /// Processors that this process may use.

@@ -39,8 +39,8 @@ inline constexpr ErrorCode kArtefactMismatch{
 // L: wall lines, hand edited (L01 … one per rule of schemas/wall_lines.md)
 inline constexpr ErrorCode kLinesNotJson{"L01", ExitCode::kInput};
 inline constexpr ErrorCode kLinesNotFeatureCollection{"L02", ExitCode::kInput};
-inline constexpr ErrorCode kLinesNoMember{
-    "L03", ExitCode::kInput};  ///< the `roomcut` member is another artefact's
+inline constexpr ErrorCode kLinesNoMember{"L03",
+                                          ExitCode::kInput};  ///< the `roomcut` member is another artefact's
 inline constexpr ErrorCode kLinesVersion{"L04", ExitCode::kInput};
 inline constexpr ErrorCode kLinesGeometry{"L05", ExitCode::kInput};     ///< missing or not a LineString
 inline constexpr ErrorCode kLinesCoordinates{"L06", ExitCode::kInput};  ///< not numbers, not finite, too few
