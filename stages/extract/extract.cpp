@@ -37,11 +37,14 @@ std::string volume_fault(double mesh_m3, double cells_m3) {
 }
 
 void measure_unobserved(const CellComplex& complex, const Labels& labels, Model& model) {
-  for (std::size_t cell = 0; cell < complex.cells(); ++cell) {
-    if (labels.unobserved[cell] != 0) {
-      const double volume = complex.area(cell % complex.faces()) * complex.height(cell / complex.faces());
-      const bool empty = labels.label[cell] == static_cast<std::uint8_t>(Label::kEmpty);
-      (empty ? model.unobserved_empty_m3 : model.unobserved_solid_m3) += volume;
+  for (std::size_t face = 0; face < complex.faces(); ++face) {
+    const double area = complex.area(face);
+    for (std::size_t layer = 0; layer < complex.layers(); ++layer) {
+      const std::size_t cell = complex.cell(face, layer);
+      if (labels.unobserved[cell] != 0) {
+        const bool empty = labels.label[cell] == static_cast<std::uint8_t>(Label::kEmpty);
+        (empty ? model.unobserved_empty_m3 : model.unobserved_solid_m3) += area * complex.height(layer);
+      }
     }
   }
 }

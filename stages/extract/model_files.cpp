@@ -33,6 +33,7 @@ bool write_model_obj(const std::filesystem::path& path, const Model& model, cons
     group.polygons.insert(group.polygons.end(), region.polygons.begin(), region.polygons.end());
   }
   std::vector<ObjGroup> sorted;
+  sorted.reserve(groups.size());
   for (auto& [key, group] : groups) {
     sorted.push_back(std::move(group));
   }
