@@ -93,7 +93,7 @@ CellEvidence gather_evidence(const CellComplex& complex, const FaceWeights& weig
     evidence.around.back += hit.back / rays;
     if (start.direction.z() > kRising) {
       ++rising;
-      evidence.sky += 1 - hit.front - hit.back;
+      evidence.sky += std::max(0.0, 1 - hit.front - hit.back);
     }
     evidence.around.near_back += hit.near_back / rays;
   }
