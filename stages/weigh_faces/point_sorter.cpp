@@ -136,8 +136,11 @@ void PointSorter::add(const Vec3& point, SurfaceClass surface, std::uint8_t azim
   }
   const bool flat =
       surface == SurfaceClass::kHorizontal && off < std::min(tolerances_.level_reach, near.reach);
-  const bool loose =
-      surface == SurfaceClass::kNone && wall < 0 && off < std::min(tolerances_.level_tight, near.reach);
+  // At a wall a point without a class is the wall's: between the two faces of a thin one they would make a floor.
+  const double clear = std::max(tolerances_.wall_reach, tolerances_.beside_low);
+  const bool loose = surface == SurfaceClass::kNone && off < std::min(tolerances_.level_tight, near.reach) &&
+                     std::none_of(candidates_.begin(), candidates_.end(),
+                                  [&](const Candidate& c) { return std::abs(c.e) < clear; });
   const bool on_level = flat || loose;
   const bool sloped = surface == SurfaceClass::kSloped;
   if (on_level || sloped) {
