@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The rules of the pipeline. stages/pipeline.sh runs this file inside a work folder, so that all names here are relative and have
 # no spaces, whatever the folder is called. It has brought inputs/ and params/ up to date: those files change only when
-# their content does. From the environment: BIN, SCAN, UP, UNIT, THREADS, STATUS.
+# their content does. From the environment: ROOMCUT_BIN, _SCAN, _UP,
+# _UNIT, _THREADS, _VERBOSITY, _STATUS; not SCAN itself, which Make would hand on as the user wrote it, relative to elsewhere.
 #
 # How a stage runs again only when it must:
 #   params/<stage>.json  resolved parameters and the stage's revision; written anew only when they differ
@@ -30,12 +31,12 @@ stamps/$(1): params/$(2).json $(4) $$(if $$(missing_$(1)),FORCE)
 	$$(call run_stage,$(1),$(2),$(3),$(5))
 endef
 
-ifdef STATUS
+ifdef ROOMCUT_STATUS
 run_stage = @echo "$(1) $(filter-out FORCE,$?) $(missing_$(1):%=missing:%)" >> stamps/.status
 else
 run_stage = @if [ -f stamps/$(1) ]; then mv -f stamps/$(1) stamps/$(1).before; fi; \
-	"$$BIN/$(2)" --work . --params params/$(2).json --log logs/$(1).json $(THREADS:%=--threads %) $(VERBOSITY) $(4) && \
-	"$$BIN/artefact" settle stamps/$(1) "$(missing_$(1))" $(3)
+	"$$ROOMCUT_BIN/$(2)" --work . --params params/$(2).json --log logs/$(1).json $(ROOMCUT_THREADS:%=--threads %) $(ROOMCUT_VERBOSITY) $(4) && \
+	"$$ROOMCUT_BIN/artefact" settle stamps/$(1) "$(missing_$(1))" $(3)
 endif
 
 lines_30 := 30_detect_lines/wall_lines.geojson
@@ -49,7 +50,7 @@ terms    := 60_raycast/data_terms.h5
 labels   := 70_graphcut/labels.h5
 final    := 90_final/cells.h5 90_final/weights.h5 90_final/data_terms.h5 90_final/labels.h5
 
-$(eval $(call stage,ingest,ingest,$(cloud),inputs/scan.id inputs/scan.options,--scan "$$$$SCAN" --up "$$$$UP" --unit "$$$$UNIT"))
+$(eval $(call stage,ingest,ingest,$(cloud),inputs/scan.id inputs/scan.options,--scan "$$$$ROOMCUT_SCAN" --up "$$$$ROOMCUT_UP" --unit "$$$$ROOMCUT_UNIT"))
 $(eval $(call stage,slice,slice,$(slices),$(cloud)))
 $(eval $(call stage,detect_lines,detect_lines,$(lines_30) 30_detect_lines/hough.h5,$(slices)))
 $(eval $(call stage,accept_lines,accept_lines,$(lines_40),$(lines_30) inputs/edit.id))

@@ -50,7 +50,6 @@ find_work_folder() {
   BUILD=$(absolute "$BUILD")
   BIN=$BUILD/bin
   [ -z "$TRUTH" ] || TRUTH=$(absolute "$TRUTH")
-  export SCAN WORK CONFIG BUILD BIN TRUTH
 }
 
 # One command at a time works in a folder: a second one waits.
@@ -69,7 +68,17 @@ take_lock() {
 # The scan enters by its bytes. They are read again only when size, time or file changed, and when an earlier run knows their
 # digest; the first time ingest takes it while reading.
 record_scan() {
-  [ -e "$SCAN" ] || { [ -f stamps/ingest ] && echo "note: $SCAN is gone; what was made from it stays" >&2 && return; } || true
+  # How the scan is to be read belongs to the scan: said once, it holds until said otherwise.
+  if [ -f inputs/scan.options ]; then
+    { read -r old_up; read -r old_unit; } < inputs/scan.options || true
+  fi
+  UP=${UP:-${old_up:-z}}
+  UNIT=${UNIT:-${old_unit:-m}}
+  printf '%s\n%s\n' "$UP" "$UNIT" | record inputs/scan.options
+  if [ ! -e "$SCAN" ] && [ -f stamps/ingest ]; then
+    echo "note: $SCAN is gone; what was made from it stays" >&2
+    return
+  fi
   if [ -f inputs/scan.path ] && [ "$(cat inputs/scan.path)" != "$SCAN" ]; then
     echo "note: $WORK was made from $(cat inputs/scan.path), now from $SCAN" >&2
   fi
@@ -87,14 +96,6 @@ record_scan() {
   else
     rm -f inputs/scan.stat.new
   fi
-  # How the scan is to be read belongs to the scan: said once, it holds until said otherwise.
-  if [ -f inputs/scan.options ]; then
-    { read -r old_up; read -r old_unit; } < inputs/scan.options || true
-  fi
-  UP=${UP:-${old_up:-z}}
-  UNIT=${UNIT:-${old_unit:-m}}
-  export UP UNIT
-  printf '%s\n%s\n' "$UP" "$UNIT" | record inputs/scan.options
 }
 
 # The hand edit enters by its bytes too, never by its time.
@@ -147,7 +148,8 @@ refresh() {
 }
 
 rules() {
-  THREADS=$JOBS VERBOSITY=${QUIET:+-q} "${MAKE:-make}" -f "$root/stages/pipeline.mk" "$@"
+  ROOMCUT_BIN=$BIN ROOMCUT_SCAN=$SCAN ROOMCUT_UP=$UP ROOMCUT_UNIT=$UNIT ROOMCUT_THREADS=$JOBS ROOMCUT_VERBOSITY=${QUIET:+-q} \
+    "${MAKE:-make}" -f "$root/stages/pipeline.mk" "$@"
 }
 
 known_stage() {
@@ -163,7 +165,8 @@ outputs_of() { # what the last stamp of a stage lists
 
 show_status() {
   : > stamps/.status
-  STATUS=1 rules run > /dev/null
+  export ROOMCUT_STATUS=1
+  rules run > /dev/null
   echo "$WORK"
   echo "  scan  $SCAN (up $UP, unit $UNIT)"
   if [ -f edits/wall_lines.geojson ]; then echo "  edit  $WORK/edits/wall_lines.geojson is in force"; fi
