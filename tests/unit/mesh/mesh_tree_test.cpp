@@ -19,12 +19,13 @@ Vec3 random_point(std::uint64_t stream, std::uint64_t i, double scale) {
                       random_unit(1, stream, 3 * i + 2));
 }
 
-TriangleMesh random_triangles(int count) {
+TriangleMesh random_triangles(std::int32_t count) {
   TriangleMesh mesh;
-  for (int i = 0; i < count; ++i) {
-    const Vec3 centre = random_point(1, static_cast<std::uint64_t>(i), 10);
-    for (int c = 0; c < 3; ++c) {
-      mesh.vertices.push_back(centre + random_point(2, static_cast<std::uint64_t>(3 * i + c), 1));
+  for (std::int32_t i = 0; i < count; ++i) {
+    const auto counter = static_cast<std::uint64_t>(i);
+    const Vec3 centre = random_point(1, counter, 10);
+    for (std::uint64_t c = 0; c < 3; ++c) {
+      mesh.vertices.emplace_back(centre + random_point(2, 3 * counter + c, 1));
     }
     mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
