@@ -15,16 +15,28 @@ namespace roomcut {
 
 namespace {
 
-/// Every n-th point, so that at most about `most` remain, tile by tile.
-std::vector<Vec3> thinned_points(const std::filesystem::path& path, std::uint64_t most) {
-  const CloudReader cloud(path);
-  const std::uint64_t step = cloud.header().points / std::max<std::uint64_t>(most, 1) + 1;
+/// Every n-th point, so that at most about `most` remain, tile by tile; of a scan with a model only the
+/// points around it, since ghosts far outside would make everything else small.
+std::vector<Vec3> thinned_points(const StageRun& run, std::uint64_t most) {
+  const CloudReader cloud(run.input("cloud"));
+  const CloudHeader& header = cloud.header();
+  Bounds3 shown{header.bbox_min, header.bbox_max};
+  if (run.has_input("model")) {
+    const Vec3 origin(header.frame.origin[0], header.frame.origin[1], header.frame.origin[2]);
+    shown = bounds(read_mesh(run.input("model")));
+    shown.lo -= origin + Vec3::Constant(1);
+    shown.hi -= origin - Vec3::Constant(1);
+  }
+  const std::uint64_t step = header.points / std::max<std::uint64_t>(most, 1) + 1;
   std::vector<Vec3> points;
   CloudTile tile;
   for (std::size_t t = 0; t < cloud.tiles(); ++t) {
     cloud.read_tile(t, tile);
     for (std::size_t i = 0; i < tile.size(); i += step) {
-      points.emplace_back(tile.x[i], tile.y[i], tile.z[i]);
+      const Vec3 p(tile.x[i], tile.y[i], tile.z[i]);
+      if ((p.array() >= shown.lo.array()).all() && (p.array() <= shown.hi.array()).all()) {
+        points.push_back(p);
+      }
     }
   }
   return points;
@@ -120,8 +132,7 @@ std::vector<Picture> draw_pictures(const StageRun& run, const ReportParams& para
   }
   if (wanted("ingest") && run.has_input("cloud")) {
     pictures.push_back(
-        draw_cloud(thinned_points(run.input("cloud"), static_cast<std::uint64_t>(params.cloud_points)),
-                   params.picture_px));
+        draw_cloud(thinned_points(run, static_cast<std::uint64_t>(params.cloud_points)), params.picture_px));
   }
   if ((wanted("slice") || wanted("detect_lines")) && run.has_input("slices")) {
     draw_slices(run, wanted("slice"), wanted("detect_lines"), pictures);
