@@ -54,6 +54,9 @@ std::vector<std::size_t> surfaces(const CellComplex& complex, const FaceWeights&
 
 std::vector<double> floor_probability(const CellComplex& complex, const FaceWeights& weights,
                                       std::size_t level, const std::vector<LevelSides>& sides) {
+  if (level == 0 || level == complex.layers()) {
+    return std::vector<double>(sides.size(), level == 0 ? 1.0 : 0.0);  // beyond the box all is solid
+  }
   const std::vector<std::size_t> surface = surfaces(complex, weights, level);
   std::vector<LevelSides> whole(sides.size());
   for (std::size_t f = 0; f < sides.size(); ++f) {
