@@ -28,7 +28,7 @@ Covered compute_covered(std::uint32_t points, int filled) {
   const double empty_share = std::exp(-static_cast<double>(points) / 9);
   const double expected = 9 * empty_share;
   const double deviation = std::sqrt(9 * empty_share * (1 - empty_share));
-  if (9 - filled <= expected + 2 * deviation) {
+  if (9 - filled <= expected + 3 * deviation) {
     return {9, true};
   }
   const double mean = mean_with_empties(static_cast<double>(points) / filled);

@@ -13,7 +13,8 @@ namespace roomcut {
 namespace {
 
 constexpr int kLast = fixed_grid::kLevels - 1;
-constexpr std::uint32_t kFewest = 6;  // points for a plane and an idea of its scatter
+constexpr std::uint32_t kFewest = 6;      // points for a plane and an idea of its scatter
+constexpr std::uint32_t kMost = 150'000;  // the moments stay exact at every level (spread_of)
 constexpr std::uint32_t kParentHas =
     48;  // a level is fine enough when its parent's neighbourhood holds so many:
          // four times the 12 that a neighbourhood should hold. Asking the parent,
@@ -27,7 +28,7 @@ double whole_area(const Plane& plane, SurfaceClass surface, const Spread& spread
                   double edge_m) {
   const std::array<double, 3>& n = plane.normal;
   if (surface == SurfaceClass::kWall) {
-    const double horizontal = std::hypot(n[0], n[1]);
+    const double horizontal = std::sqrt(n[0] * n[0] + n[1] * n[1]);
     const double d = (n[0] * spread.mean[0] + n[1] * spread.mean[1]) / (horizontal * units_per_edge);
     return 3 * chord_of_square(n[0] / horizontal, n[1] / horizontal, d) * edge_m * edge_m / horizontal;
   }
@@ -94,26 +95,30 @@ void for_own_columns(const VoxelLevel& level, Visit&& visit) {
   }
 }
 
-void accumulate(const VoxelLevel& level, std::uint16_t z, Neighbourhood& around, NeighbourSum& sum) {
+NeighbourSum accumulate(const VoxelLevel& level, std::uint16_t z, Neighbourhood& around) {
+  MomentSum moments;
+  VoxelMask mask = 0;
+  const Moments* const first = level.moments.data();
   around.visit(z, [&](std::uint32_t voxel, int bit) {
-    sum.moments.add(level.moments[voxel]);
-    sum.points += level.count[voxel];
-    sum.mask |= VoxelMask{1} << bit;
+    moments.add(first[voxel]);
+    mask |= VoxelMask{1} << bit;
   });
+  return {moments.total(), mask};
 }
 
 }  // namespace
 
-VoxelSurface surface_of(const NeighbourSum& sum, const std::array<std::uint64_t, 3>& centre,
+VoxelSurface surface_of(const NeighbourSum& sum, const std::array<std::uint32_t, 3>& centre,
                         double voxel_edge_m, double unit_m, const IngestParams& params) {
   VoxelSurface result;
-  const double n = sum.points;
+  const std::uint32_t points = sum.moments.points();
+  const double n = points;
   result.area = static_cast<float>(std::popcount(sum.mask) * voxel_edge_m * voxel_edge_m / n);
-  if (sum.points < kFewest) {
+  if (points < kFewest || points > kMost) {
     return result;
   }
   const double edge = voxel_edge_m / unit_m;
-  const Spread spread = spread_of(sum.moments, sum.points, centre);
+  const Spread spread = spread_of(sum.moments, centre);
   const Plane plane = plane_of(spread);
   result.resolved = plane.lambda1 > kLineShare * 9 * edge * edge;
   if (!result.resolved) {
@@ -121,7 +126,8 @@ VoxelSurface surface_of(const NeighbourSum& sum, const std::array<std::uint64_t,
   }
   const double ratio = plane.lambda0 / plane.lambda1;
   result.tilt_variance = static_cast<float>(ratio / n);
-  result.undecided = std::abs(ratio / params.planar_ratio - 1) < 2 / std::sqrt(n);  // two standard deviations
+  const double from_limit = ratio / params.planar_ratio - 1;
+  result.undecided = from_limit * from_limit * n < 4;  // within two standard deviations, 1 / sqrt(n) each
   if (ratio >= params.planar_ratio) {
     return result;
   }
@@ -130,11 +136,11 @@ VoxelSurface surface_of(const NeighbourSum& sum, const std::array<std::uint64_t,
     result.azimuth = azimuth_step(plane.normal[0], plane.normal[1]);
   }
   const int filled = std::popcount(projected(sum.mask, viewing_axis(plane.normal)));
-  const Covered covered = covered_cells(sum.points, filled);
+  const Covered covered = covered_cells(points, filled);
   result.whole = covered.whole;
   result.area = static_cast<float>(whole_area(plane, result.surface, spread, edge, voxel_edge_m) *
                                    covered.cells / (9 * n));
-  if (sum.points >= kWellFilled && ratio < kClearPlane) {
+  if (points >= kWellFilled && ratio < kClearPlane) {
     const double sigma = std::sqrt(plane.lambda0 * n / (n - 3)) * unit_m;  // three parameters were fitted
     result.noise = static_cast<float>(std::max(sigma, 1e-6));              // exact planes count as well
   }
@@ -146,9 +152,8 @@ const VoxelSurface& SurfaceFinder::at_coarse(const TileGrid& grid, const UnitSca
   Cached& cached = cache_[static_cast<std::size_t>(level)][voxel];
   if (!cached.known) {
     const VoxelLevel& voxels = grid.level(level);
-    NeighbourSum sum;
     Neighbourhood around(voxels, ix, iy);
-    accumulate(voxels, voxels.z[voxel], around, sum);
+    const NeighbourSum sum = accumulate(voxels, voxels.z[voxel], around);
     cached.surface = surface_of(sum, grid.centre(level, ix, iy, voxels.z[voxel]),
                                 scale.voxel_edge_m() * (1 << level), scale.unit_m(), params_);
     cached.known = true;
@@ -168,10 +173,10 @@ void SurfaceFinder::survey(const TileGrid& grid, const UnitScale& scale, int lev
   for_own_columns(voxels, [&](int ix, int iy, std::uint32_t first, std::uint32_t last) {
     Neighbourhood around(voxels, ix, iy);
     for (std::uint32_t voxel = first; voxel < last; ++voxel) {
-      around.visit(voxels.z[voxel], [&](std::uint32_t other, int) { counts[voxel] += voxels.count[other]; });
+      around.visit(voxels.z[voxel],
+                   [&](std::uint32_t other, int) { counts[voxel] += voxels.moments[other].points(); });
       if (counts[voxel] < kParentHas && parent_is_full(voxel)) {
-        NeighbourSum sum;
-        accumulate(voxels, voxels.z[voxel], around, sum);
+        const NeighbourSum sum = accumulate(voxels, voxels.z[voxel], around);
         cache[voxel] = {surface_of(sum, grid.centre(level, ix, iy, voxels.z[voxel]),
                                    scale.voxel_edge_m() * (1 << level), scale.unit_m(), params_),
                         true};
@@ -192,8 +197,7 @@ VoxelSurface SurfaceFinder::choose(const TileGrid& grid, const UnitScale& scale,
       return at_coarse(grid, scale, level, ancestor[static_cast<std::size_t>(level)], ix >> level,
                        iy >> level);
     }
-    NeighbourSum sum;
-    accumulate(grid.level(0), grid.level(0).z[voxel], around, sum);
+    const NeighbourSum sum = accumulate(grid.level(0), grid.level(0).z[voxel], around);
     return surface_of(sum, grid.centre(0, ix, iy, grid.level(0).z[voxel]), scale.voxel_edge_m(),
                       scale.unit_m(), params_);
   };
@@ -229,7 +233,7 @@ const std::vector<VoxelSurface>& SurfaceFinder::find(const TileGrid& grid, const
     Neighbourhood around(finest, ix, iy);
     for (std::uint32_t voxel = first; voxel < last; ++voxel) {
       result_[voxel] = choose(grid, scale, voxel, ix, iy, around);
-      estimates.area.add(result_[voxel].area, finest.count[voxel]);
+      estimates.area.add(result_[voxel].area, finest.moments[voxel].points());
       if (result_[voxel].noise > 0) {
         estimates.noise.add(result_[voxel].noise);
       }

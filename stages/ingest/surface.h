@@ -27,12 +27,11 @@ struct VoxelSurface {
 /// Sums over a neighbourhood.
 struct NeighbourSum {
   Moments moments;
-  std::uint32_t points = 0;
   VoxelMask mask = 0;
 };
 
 /// Fits the plane, classes it and estimates the area that each point stands for.
-VoxelSurface surface_of(const NeighbourSum& sum, const std::array<std::uint64_t, 3>& centre,
+VoxelSurface surface_of(const NeighbourSum& sum, const std::array<std::uint32_t, 3>& centre,
                         double voxel_edge_m, double unit_m, const IngestParams& params);
 
 /// Classes every voxel of a tile, each at the finest level that has enough points. Scratch memory is kept

@@ -22,20 +22,29 @@ Surface surface_of_point(const TileGrid::Point& point, const VoxelSurface& voxel
   return {static_cast<std::uint8_t>(voxel.surface), voxel.azimuth};
 }
 
-/// Calls visit(point, voxel) for the points of the tile without its halo.
+/// Calls visit(voxel, first point, last + 1) for the voxels of the tile without its halo.
 template <class Visit>
-void for_own_points(const TileGrid& grid, const std::vector<VoxelSurface>& surfaces, Visit&& visit) {
+void for_own_voxels(const TileGrid& grid, Visit&& visit) {
   const VoxelLevel& level = grid.level(0);
+  const std::vector<std::uint32_t>& first = grid.first_point();
   for (int iy = level.halo(); iy < level.columns - level.halo(); ++iy) {
     for (int ix = level.halo(); ix < level.columns - level.halo(); ++ix) {
       const std::size_t column = level.column(ix, iy);
       for (std::uint32_t voxel = level.begin[column]; voxel < level.begin[column + 1]; ++voxel) {
-        for (std::uint32_t i = grid.first_point()[voxel]; i < grid.first_point()[voxel + 1]; ++i) {
-          visit(grid.points()[i], surfaces[voxel]);
-        }
+        visit(voxel, first[voxel], first[voxel + 1]);
       }
     }
   }
+}
+
+/// Calls visit(point, voxel's surface) for the points of the tile without its halo.
+template <class Visit>
+void for_own_points(const TileGrid& grid, const std::vector<VoxelSurface>& surfaces, Visit&& visit) {
+  for_own_voxels(grid, [&](std::uint32_t voxel, std::uint32_t first, std::uint32_t last) {
+    for (std::uint32_t i = first; i < last; ++i) {
+      visit(grid.points()[i], surfaces[voxel]);
+    }
+  });
 }
 
 bool hints_agree(const TileGrid& grid, const std::vector<VoxelSurface>& surfaces) {
@@ -66,9 +75,15 @@ bool make_cloud_tile(const TileGrid& grid, const std::vector<VoxelSurface>& surf
   const bool refused = hints && !hints_agree(grid, surfaces);
   const bool use = hints && !refused;
   std::array<std::size_t, kClasses> next{};
-  for_own_points(grid, surfaces, [&](const TileGrid::Point& point, const VoxelSurface& voxel) {
-    ++next[surface_of_point(point, voxel, use).surface];
-  });
+  if (use) {
+    for_own_points(grid, surfaces, [&](const TileGrid::Point& point, const VoxelSurface& voxel) {
+      ++next[surface_of_point(point, voxel, use).surface];
+    });
+  } else {
+    for_own_voxels(grid, [&](std::uint32_t voxel, std::uint32_t first, std::uint32_t last) {
+      next[static_cast<std::size_t>(surfaces[voxel].surface)] += last - first;
+    });
+  }
   std::size_t total = 0;
   for (std::size_t& begin : next) {
     const std::size_t count = begin;

@@ -107,7 +107,6 @@ void TileGrid::sum_moments(const UnitScale& scale) {
       sum.add_point(relative(sorted_[i].x, 0), relative(sorted_[i].y, 1), rz);
     }
     level.z.push_back(static_cast<std::uint16_t>(height));
-    level.count.push_back(static_cast<std::uint32_t>(i) - first_point_.back());
     level.moments.push_back(sum);
   }
   level.begin.resize(std::size_t{kColumns} * kColumns + 1, static_cast<std::uint32_t>(level.size()));
@@ -123,10 +122,10 @@ void TileGrid::build(const TilePoints& points, const TilePlace& place, const Uni
   }
 }
 
-std::array<std::uint64_t, 3> TileGrid::centre(int level, int ix, int iy, std::uint16_t z) const {
+std::array<std::uint32_t, 3> TileGrid::centre(int level, int ix, int iy, std::uint16_t z) const {
   const int bits = kVoxelBits + level;
   const auto middle = [bits](int voxel) {
-    return (static_cast<std::uint64_t>(voxel) << bits) + (std::uint64_t{1} << (bits - 1));
+    return (static_cast<std::uint32_t>(voxel) << bits) + (std::uint32_t{1} << (bits - 1));
   };
   return {middle(ix), middle(iy), middle(z)};
 }

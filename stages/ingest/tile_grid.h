@@ -36,7 +36,7 @@ class TileGrid {
   VoxelLevel& level(int i) { return levels_[static_cast<std::size_t>(i)]; }
   const VoxelLevel& level(int i) const { return levels_[static_cast<std::size_t>(i)]; }
   /// Centre of a voxel in units from the tile's corner, as the moments count.
-  std::array<std::uint64_t, 3> centre(int level, int ix, int iy, std::uint16_t z) const;
+  std::array<std::uint32_t, 3> centre(int level, int ix, int iy, std::uint16_t z) const;
 
  private:
   void find_keys(const TilePoints& points, const TilePlace& place, const UnitScale& scale);

@@ -10,14 +10,12 @@ void VoxelLevel::clear(int at_level) {
   columns = (fixed_grid::kTileVoxels + 2 * fixed_grid::kHaloVoxels) >> at_level;
   begin.clear();
   z.clear();
-  count.clear();
   moments.clear();
   parent.clear();
 }
 
 void VoxelLevel::reserve(std::size_t voxels) {
   z.reserve(voxels);
-  count.reserve(voxels);
   moments.reserve(voxels);
 }
 
@@ -47,15 +45,14 @@ void coarsen(VoxelLevel& fine, VoxelLevel& coarse) {
         }
         const auto voxel = static_cast<std::uint32_t>(coarse.size());
         coarse.z.push_back(static_cast<std::uint16_t>(lowest));
-        coarse.count.push_back(0);
-        Moments& sum = coarse.moments.emplace_back();
+        MomentSum sum;
         for (std::size_t k = 0; k < 4; ++k) {
           for (; at[k] < end[k] && fine.z[at[k]] / 2 == lowest; ++at[k]) {
-            coarse.count.back() += fine.count[at[k]];
             sum.add(fine.moments[at[k]]);
             fine.parent[at[k]] = voxel;
           }
         }
+        coarse.moments.push_back(sum.total());
       }
     }
   }

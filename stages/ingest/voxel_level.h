@@ -17,7 +17,6 @@ struct VoxelLevel {
   int columns = 0;                   ///< along one side, halo included
   std::vector<std::uint32_t> begin;  ///< first voxel of each column; size columns^2 + 1
   std::vector<std::uint16_t> z;      ///< height of a voxel above the tile's base, in voxels of this level
-  std::vector<std::uint32_t> count;  ///< points
   std::vector<Moments> moments;
   std::vector<std::uint32_t>
       parent;  ///< the voxel of the next level that contains this one; empty on the last
@@ -54,14 +53,16 @@ class Neighbourhood {
   /// + (0, 1, 2 upwards). Heights must not decrease from one call to the next.
   template <class Visit>
   void visit(std::uint16_t z, Visit&& visit) {
+    const std::uint16_t* const heights = level_.z.data();
     for (std::size_t k = 0; k < 9; ++k) {
       std::uint32_t voxel = at_[k];
-      while (voxel < end_[k] && level_.z[voxel] + 1 < z) {
+      const std::uint32_t end = end_[k];
+      while (voxel < end && heights[voxel] + 1 < z) {
         ++voxel;
       }
       at_[k] = voxel;
-      for (; voxel < end_[k] && level_.z[voxel] <= z + 1; ++voxel) {
-        visit(voxel, static_cast<int>(3 * k) + level_.z[voxel] - z + 1);
+      for (; voxel < end && heights[voxel] <= z + 1; ++voxel) {
+        visit(voxel, static_cast<int>(3 * k) + heights[voxel] - z + 1);
       }
     }
   }

@@ -63,7 +63,7 @@ TEST(CoveredCells, is_right_on_average_for_random_points) {
         }
       }
       const double slack =
-          truly == 9 ? 0.04 : (mean > 4 ? 0.05 : 0.5);  // a border shows only where points are dense
+          truly == 9 ? 0.04 : (mean > 4 ? 0.07 : 0.5);  // a border shows only where points are dense
       EXPECT_NEAR(estimate / points, 1, slack) << mean << " points in each of " << truly;
     }
   }

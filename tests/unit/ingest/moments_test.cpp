@@ -33,8 +33,8 @@ TEST(Moments, give_the_covariance_exactly_even_when_the_sums_wrap) {
       sum += v;
       products += v * v.transpose();
     }
-    const std::uint64_t centre = std::uint64_t{corner} + 700;
-    const Spread spread = spread_of(moments, kPoints, {centre, centre, centre});
+    const std::uint32_t centre = corner + 700;
+    const Spread spread = spread_of(moments, {centre, centre, centre});
     const Eigen::Vector3d mean = sum / kPoints;
     EXPECT_NEAR(spread.mean[1], mean[1], 1e-9);
     EXPECT_LT((matrix_of(spread) - (products / kPoints - mean * mean.transpose())).norm(), 1e-6) << corner;
@@ -77,7 +77,7 @@ TEST(Plane, of_an_exact_plane_has_no_thickness) {
     const std::uint32_t y = i / 10;
     moments.add_point(1000 + x, 1000 + y, 1000 + 2 * x + 3 * y);
   }
-  const Plane plane = plane_of(spread_of(moments, 100, {1000, 1000, 1000}));
+  const Plane plane = plane_of(spread_of(moments, {1000, 1000, 1000}));
   EXPECT_NEAR(plane.lambda0, 0, 1e-9);
   const double length = std::sqrt(14.0);
   EXPECT_NEAR(std::abs(plane.normal[0]), 2 / length, 1e-9);
@@ -92,8 +92,8 @@ TEST(Plane, of_a_line_or_a_place_has_no_second_direction) {
     line.add_point(100 + i, 200 + 2 * i, 300);
     place.add_point(100, 200, 300);
   }
-  EXPECT_NEAR(plane_of(spread_of(line, 50, {100, 200, 300})).lambda1, 0, 1e-6);
-  EXPECT_EQ(plane_of(spread_of(place, 50, {100, 200, 300})).lambda1, 0);
+  EXPECT_NEAR(plane_of(spread_of(line, {100, 200, 300})).lambda1, 0, 1e-6);
+  EXPECT_EQ(plane_of(spread_of(place, {100, 200, 300})).lambda1, 0);
 }
 
 }  // namespace
