@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages/graphcut/label_repair.h"
 
+#include <cassert>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -63,8 +64,10 @@ class Patient {
 
 template <class F>
 void Patient::for_each_place_of(std::size_t cell, F&& f) const {
-  const std::size_t face = cell % complex_.faces();
-  const auto layer = static_cast<std::int32_t>(cell / complex_.faces());
+  const std::size_t faces = complex_.faces();
+  assert(faces > 0);
+  const std::size_t face = cell % faces;
+  const auto layer = static_cast<std::int32_t>(cell / faces);
   for (std::int64_t i = complex_.face_offset[face]; i < complex_.face_offset[face + 1]; ++i) {
     f(Place{layer, complex_.face_vertex[i]});
     f(Place{layer + 1, complex_.face_vertex[i]});
