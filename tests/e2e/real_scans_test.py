@@ -8,11 +8,12 @@ import unittest
 
 import pipeline
 
-# storeys that must be there, a clear height in metres that must occur (±8 cm), and bounds of the volume [m3]
+# storeys that must be there and bounds of the volume [m3]
 SCANS = {
     "indoor_office_2storey": {"storeys": 2, "volume": (900, 3200)},
     "tls_office_floor_a": {"storeys": 1, "volume": (500, 1200)},
-    "pcl_lab_two_scans": {"storeys": 1, "volume": (90, 200)},
+    # the lab has 145 m3; the space behind its glass wall was scanned, too, floor, ceiling and walls
+    "pcl_lab_two_scans": {"storeys": 1, "volume": (130, 330)},
     "small_room_normals": {"storeys": 1, "volume": (7, 11)},
 }
 
