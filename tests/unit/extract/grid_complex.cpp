@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/unit/extract/grid_complex.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -8,71 +9,89 @@
 
 namespace roomcut::test {
 
+namespace {
+
+class GridMaker {
+ public:
+  GridMaker(const std::vector<double>& x, const std::vector<double>& y, double angle)
+      : nx_(static_cast<int>(x.size())), ny_(static_cast<int>(y.size())) {
+    for (const double yj : y) {
+      for (const double xi : x) {
+        out_.vertices.emplace_back(std::cos(angle) * xi - std::sin(angle) * yj,
+                                   std::sin(angle) * xi + std::cos(angle) * yj);
+      }
+    }
+    for (int i = 1; i + 1 < nx_; ++i) add_line(vertex(i, 0), vertex(i, ny_ - 1));
+    for (int j = 1; j + 1 < ny_; ++j) add_line(vertex(0, j), vertex(nx_ - 1, j));
+    out_.face_offset = {0};
+  }
+
+  // The grid cells (i, j) … (end - 1, j) as one face.
+  void add_face(int i, int end, int j) {
+    std::vector<int> corners;
+    for (int k = i; k <= end; ++k) corners.push_back(vertex(k, j));
+    for (int k = end; k >= i; --k) corners.push_back(vertex(k, j + 1));
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+      out_.face_vertex.push_back(corners[c]);
+      out_.face_edge.push_back(edge(corners[c], corners[(c + 1) % corners.size()]));
+    }
+    out_.face_offset.push_back(static_cast<std::int64_t>(out_.face_vertex.size()));
+  }
+
+  CellComplex take() { return std::move(out_); }
+
+ private:
+  int vertex(int i, int j) const { return j * nx_ + i; }
+
+  void add_line(int a, int b) {
+    CellComplex::Line line;
+    line.wall_id = "w" + std::to_string(out_.lines.size());
+    line.line =
+        line_through(out_.vertices[static_cast<std::size_t>(a)], out_.vertices[static_cast<std::size_t>(b)]);
+    line.t0 = -100;
+    line.t1 = 100;
+    out_.lines.push_back(line);
+  }
+
+  // Lines 0 … nx - 3 are x_1 …, after them y_1 …; -1 on the bounding box.
+  int line_of(int a, int b) const {
+    const bool upright = a % nx_ == b % nx_;
+    const int k = upright ? a % nx_ : a / nx_;
+    const int last = (upright ? nx_ : ny_) - 1;
+    return k == 0 || k == last ? -1 : k - 1 + (upright ? 0 : nx_ - 2);
+  }
+
+  // The edge a -> b of the face that is being added, on its left.
+  std::int32_t edge(int a, int b) {
+    const auto next = static_cast<std::int32_t>(out_.edges.size());
+    const auto [found, fresh] = edge_of_.insert({std::pair(std::min(a, b), std::max(a, b)), next});
+    if (fresh) out_.edges.push_back({std::min(a, b), std::max(a, b), -1, -1, line_of(a, b)});
+    CellComplex::Edge& made = out_.edges[static_cast<std::size_t>(found->second)];
+    (made.v0 == a ? made.left : made.right) = static_cast<std::int32_t>(out_.faces());
+    return found->second;
+  }
+
+  int nx_, ny_;
+  CellComplex out_;
+  std::map<std::pair<int, int>, std::int32_t> edge_of_;
+};
+
+}  // namespace
+
 CellComplex grid_complex(const std::vector<double>& x, const std::vector<double>& y,
                          const std::vector<double>& levels, double angle,
                          const std::function<bool(int, int)>& joined) {
-  const int nx = static_cast<int>(x.size());
-  const int ny = static_cast<int>(y.size());
-  CellComplex out;
+  GridMaker maker(x, y, angle);
+  const int cells = static_cast<int>(x.size()) - 1;
+  for (int j = 0; j + 1 < static_cast<int>(y.size()); ++j) {
+    for (int i = 0; i < cells;) {
+      const int end = joined && i + 1 < cells && joined(i, j) ? i + 2 : i + 1;
+      maker.add_face(i, end, j);
+      i = end;
+    }
+  }
+  CellComplex out = maker.take();
   out.levels = levels;
-  for (int j = 0; j < ny; ++j) {
-    for (int i = 0; i < nx; ++i) {
-      out.vertices.emplace_back(std::cos(angle) * x[i] - std::sin(angle) * y[j],
-                                std::sin(angle) * x[i] + std::cos(angle) * y[j]);
-    }
-  }
-  const auto vertex = [nx](int i, int j) { return j * nx + i; };
-  const auto add_line = [&out](int a, int b) {
-    CellComplex::Line line;
-    line.line =
-        line_through(out.vertices[static_cast<std::size_t>(a)], out.vertices[static_cast<std::size_t>(b)]);
-    line.wall_id = "w" + std::to_string(out.lines.size());
-    line.t0 = -100;
-    line.t1 = 100;
-    out.lines.push_back(line);
-  };
-  // Lines 0 … nx - 3 are x_1 …, after them y_1 …
-  for (int i = 1; i + 1 < nx; ++i) {
-    add_line(vertex(i, 0), vertex(i, ny - 1));
-  }
-  for (int j = 1; j + 1 < ny; ++j) {
-    add_line(vertex(0, j), vertex(nx - 1, j));
-  }
-  const auto line_of = [&](int a, int b) {
-    const bool upright = a % nx == b % nx;
-    const int k = upright ? a % nx : a / nx;
-    const int last = (upright ? nx : ny) - 1;
-    return k == 0 || k == last ? -1 : k - 1 + (upright ? 0 : nx - 2);
-  };
-  std::map<std::pair<int, int>, std::int32_t> edge_of;
-  out.face_offset = {0};
-  const auto add_face = [&](const std::vector<int>& corners) {
-    const auto face = static_cast<std::int32_t>(out.faces());
-    for (std::size_t c = 0; c < corners.size(); ++c) {
-      const int a = corners[c];
-      const int b = corners[(c + 1) % corners.size()];
-      const auto [found, fresh] =
-          edge_of.insert({std::minmax(a, b), static_cast<std::int32_t>(out.edges.size())});
-      if (fresh) {
-        out.edges.push_back({std::min(a, b), std::max(a, b), -1, -1, line_of(a, b)});
-      }
-      CellComplex::Edge& edge = out.edges[static_cast<std::size_t>(found->second)];
-      (edge.v0 == a ? edge.left : edge.right) = face;
-      out.face_vertex.push_back(a);
-      out.face_edge.push_back(found->second);
-    }
-    out.face_offset.push_back(static_cast<std::int64_t>(out.face_vertex.size()));
-  };
-  for (int j = 0; j + 1 < ny; ++j) {
-    for (int i = 0; i + 1 < nx; ++i) {
-      const int end = joined && i + 2 < nx && joined(i, j) ? i + 2 : i + 1;
-      std::vector<int> corners;
-      for (int k = i; k <= end; ++k) corners.push_back(vertex(k, j));
-      for (int k = end; k >= i; --k) corners.push_back(vertex(k, j + 1));
-      add_face(corners);
-      i = end - 1;
-    }
-  }
   return out;
 }
 

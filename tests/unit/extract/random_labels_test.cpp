@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <set>
 
 #include "common/cells/vertex_rings.h"
@@ -31,30 +32,29 @@ Neighbourhood around(const CellComplex& complex, const VertexRings& rings, std::
   return out;
 }
 
+// How many connected pieces the cells with one label make; neighbours share a face.
 int pieces(const Neighbourhood& n, const std::vector<std::uint8_t>& label, std::uint8_t wanted) {
   const std::size_t size = n.below.size();
-  const auto value = [&](std::size_t place) {
-    const std::int64_t cell = place < size ? n.below[place] : n.above[place - size];
-    return cell < 0 ? std::uint8_t{0} : label[static_cast<std::size_t>(cell)];
+  std::vector<int>
+      todo;  // 1 = has the label and was not reached yet; first the layer below, then the one above
+  for (const auto& cells : {n.below, n.above}) {
+    for (const std::int64_t cell : cells) {
+      todo.push_back((cell < 0 ? 0 : label[static_cast<std::size_t>(cell)]) == wanted ? 1 : 0);
+    }
+  }
+  const std::function<void(std::size_t, std::size_t)> reach = [&](std::size_t layer, std::size_t place) {
+    int& here = todo[layer * size + place];
+    if (here == 0) return;
+    here = 0;
+    reach(layer, place + 1 == size ? 0 : place + 1);
+    reach(layer, place == 0 ? size - 1 : place - 1);
+    reach(1 - layer, place);
   };
-  std::vector<int> seen(2 * size, 0);
   int count = 0;
-  for (std::size_t seed = 0; seed < 2 * size; ++seed) {
-    if (seen[seed] != 0 || value(seed) != wanted) continue;
-    ++count;
-    std::vector<std::size_t> open{seed};
-    seen[seed] = 1;
-    while (!open.empty()) {
-      const std::size_t p = open.back();
-      open.pop_back();
-      const std::size_t layer = p / size * size;
-      for (const std::size_t q :
-           {layer + (p + 1) % size, layer + (p + size - 1) % size, (p + size) % (2 * size)}) {
-        if (seen[q] == 0 && value(q) == wanted) {
-          seen[q] = 1;
-          open.push_back(q);
-        }
-      }
+  for (std::size_t layer = 0; layer < 2; ++layer) {
+    for (std::size_t place = 0; place < size; ++place) {
+      count += todo[layer * size + place];
+      reach(layer, place);
     }
   }
   return count;
@@ -95,7 +95,8 @@ TEST(Extract, TwoHundredRandomLabelingsAreClosedAndFreeOfIntersections) {
     // Never 45 degrees: the sides of the bounding box are told apart by their direction.
     const double angle = seed % 2 == 0 ? 0 : 0.7 * draw();
     const CellComplex complex = test::grid_complex(x, y, z, angle, [seed](int i, int j) {
-      return i % 2 == 0 && random_unit(seed, 1, static_cast<std::uint64_t>(64 * i + j)) < 0.3;
+      return i % 2 == 0 &&
+             random_unit(seed, 1, 64 * static_cast<std::uint64_t>(i) + static_cast<std::uint64_t>(j)) < 0.3;
     });
     if (angle == 0) {  // turned grids have no axis-aligned bounding box, all else holds
       ASSERT_EQ(find_violation(complex), "");
