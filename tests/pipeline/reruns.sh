@@ -205,6 +205,18 @@ mk run
 digests "$work" > "$place/now"
 check "… and the next run brings back the same" cmp "$place/first" "$place/now"
 
+# Names relative to where make runs; how the scan is to be read holds until said otherwise.
+scan=$(realpath --relative-to="$SOURCE" "$scan") && first_work=$work && work="$place/second"
+check "a scan named relatively" mk ingest
+check "… is found" test -s "$work/10_ingest/cloud.h5"
+mark
+check "UP=y" mk ingest UP=y
+check "… reads the scan again" ran_exactly "ingest"
+mark
+mk ingest
+check "… and holds for the next run" ran_exactly ""
+scan=$(realpath "$SOURCE/$scan") && work=$first_work
+
 mark
 make_scan 2 "$scan"
 check "another scan of the same name" mk run
