@@ -28,7 +28,8 @@ double empty_log_odds(const CellEvidence& e) {
   const double own = (e.front_m2 - e.back_m2) / (e.front_m2 + e.back_m2 + doubt);
   const double seen = e.around.front + e.around.back;
   const double open = std::max(0.0, 1 - seen - 0.35);  // most rooms are closed to two thirds at least
-  return 1.5 + 4 * own + 2 * e.around.front - 3 * e.around.near_back - 4 * open - 5 * e.sky;
+  return 1.5 + 4 * own + 2 * e.around.front + e.vertical.front - 3 * e.around.near_back -
+         3 * e.vertical.near_back - 4 * open - 5 * e.sky;
 }
 
 DataTerms cast_rays(const CellComplex& complex, const FaceWeights& weights, const RaycastParams& params) {

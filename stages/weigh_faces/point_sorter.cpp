@@ -136,12 +136,13 @@ void PointSorter::add(const Vec3& point, SurfaceClass surface, std::uint8_t azim
   }
   const bool flat =
       surface == SurfaceClass::kHorizontal && off < std::min(tolerances_.level_reach, near.reach);
-  // At a wall a point without a class, or of a sloped one, is the wall's: between the two faces of a thin one, where noise
-  // mixes them, they would make a floor.
+  // At a wall a point without a class, or of a sloped one, is the wall's: between the two faces of a thin
+  // one, where noise mixes them, they would make a floor.
   const double clear = std::max(tolerances_.wall_reach, tolerances_.beside_low);
   const bool at_wall = std::any_of(candidates_.begin(), candidates_.end(),
                                    [&](const Candidate& c) { return std::abs(c.e) < clear; });
-  const bool loose = surface == SurfaceClass::kNone && off < std::min(tolerances_.level_tight, near.reach) && !at_wall;
+  const bool loose =
+      surface == SurfaceClass::kNone && off < std::min(tolerances_.level_tight, near.reach) && !at_wall;
   const bool on_level = flat || loose;
   const bool sloped = surface == SurfaceClass::kSloped && !at_wall;
   if (on_level || sloped) {
