@@ -146,12 +146,12 @@ void to_local(const ScanBlock& block, const ScanFrame& frame, const UnitScale& s
     const double px = x(i);
     const double py = y(i);
     const double pz = z(i);
-    local.x[kept] = static_cast<float>(px);
-    local.y[kept] = static_cast<float>(py);
-    local.z[kept] = static_cast<float>(pz);
     const bool inside =
         px > low[0] && px < high[0] && py > low[1] && py < high[1] && pz > low[2] && pz < high[2];
     if (inside) {
+      local.x[kept] = static_cast<float>(px);
+      local.y[kept] = static_cast<float>(py);
+      local.z[kept] = static_cast<float>(pz);
       if (normals) {
         copy_normal(block, frame, i, kept, local);
       }
