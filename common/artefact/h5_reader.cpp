@@ -187,7 +187,7 @@ h5::Shape H5Reader::checked_shape(const std::string& path, const h5::Shape& expe
     damaged(path, "the dataset is missing");
   }
   const Handle dataset = open_dataset(state_->path, state_->file.get(), h5::absolute_path(path));
-  const h5::Shape actual = shape_of(dataset.get());
+  h5::Shape actual = shape_of(dataset.get());
   bool fits = !actual.empty() && (expected.empty() || expected.size() == actual.size());
   for (std::size_t i = 0; fits && i < expected.size(); ++i) {
     fits = expected[i] == 0 || expected[i] == actual[i];
