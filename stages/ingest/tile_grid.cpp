@@ -52,7 +52,7 @@ void TileGrid::find_keys(const TilePoints& points, const TilePlace& place, const
     height_[i] = static_cast<std::uint16_t>((uz - corner_[2]) >> kVoxelBits);
     if (!all) {
       const int layer = (uz >> kTileBits) - place.window_z;
-      const auto beside = static_cast<std::size_t>(3 * (side(ry) + 1) + side(rx) + 1);
+      const auto beside = static_cast<std::size_t>(side(ry) + 1) * 3 + static_cast<std::size_t>(side(rx) + 1);
       if ((place.layers[beside] >> layer & 1) == 0) {
         column_[i] = kDropped;
         continue;
