@@ -19,6 +19,34 @@ void VoxelLevel::reserve(std::size_t voxels) {
   moments.reserve(voxels);
 }
 
+namespace {
+
+/// Joins the voxels of four neighbouring columns, from below, `at` running to `end` in each, into one column.
+void join_columns(VoxelLevel& fine, VoxelLevel& coarse, std::array<std::uint32_t, 4>& at,
+                  const std::array<std::uint32_t, 4>& end) {
+  while (true) {
+    int lowest = INT32_MAX;
+    for (std::size_t k = 0; k < 4; ++k) {
+      lowest = at[k] < end[k] ? std::min(lowest, fine.z[at[k]] / 2) : lowest;
+    }
+    if (lowest == INT32_MAX) {
+      return;
+    }
+    const auto voxel = static_cast<std::uint32_t>(coarse.size());
+    coarse.z.push_back(static_cast<std::uint16_t>(lowest));
+    MomentSum sum;
+    for (std::size_t k = 0; k < 4; ++k) {
+      for (; at[k] < end[k] && fine.z[at[k]] / 2 == lowest; ++at[k]) {
+        sum.add(fine.moments[at[k]]);
+        fine.parent[at[k]] = voxel;
+      }
+    }
+    coarse.moments.push_back(sum.total());
+  }
+}
+
+}  // namespace
+
 void coarsen(VoxelLevel& fine, VoxelLevel& coarse) {
   coarse.clear(fine.level + 1);
   fine.parent.resize(fine.size());
@@ -35,25 +63,7 @@ void coarsen(VoxelLevel& fine, VoxelLevel& coarse) {
         at[static_cast<std::size_t>(k)] = fine.begin[column];
         end[static_cast<std::size_t>(k)] = fine.begin[column + 1];
       }
-      while (true) {
-        int lowest = INT32_MAX;
-        for (std::size_t k = 0; k < 4; ++k) {
-          lowest = at[k] < end[k] ? std::min(lowest, fine.z[at[k]] / 2) : lowest;
-        }
-        if (lowest == INT32_MAX) {
-          break;
-        }
-        const auto voxel = static_cast<std::uint32_t>(coarse.size());
-        coarse.z.push_back(static_cast<std::uint16_t>(lowest));
-        MomentSum sum;
-        for (std::size_t k = 0; k < 4; ++k) {
-          for (; at[k] < end[k] && fine.z[at[k]] / 2 == lowest; ++at[k]) {
-            sum.add(fine.moments[at[k]]);
-            fine.parent[at[k]] = voxel;
-          }
-        }
-        coarse.moments.push_back(sum.total());
-      }
+      join_columns(fine, coarse, at, end);
     }
   }
   coarse.begin.push_back(static_cast<std::uint32_t>(coarse.size()));

@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace roomcut {
@@ -47,13 +48,15 @@ DataTerms cast_rays(const CellComplex& complex, const FaceWeights& weights, cons
   terms.d_empty.resize(cells);
   terms.d_solid.resize(cells);
   const FaceWalk walk(complex, weights);
+  const std::size_t faces = complex.faces();
+  assert(cells == 0 || faces > 0);
   const bool parity = params.evidence == "parity";
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, cells, 16), [&](const tbb::blocked_range<std::size_t>& range) {
         std::vector<Crossing> scratch;
         for (std::size_t c = range.begin(); c < range.end(); ++c) {
-          const std::size_t face = c % complex.faces();
-          const std::size_t layer = c / complex.faces();
+          const std::size_t face = c % faces;
+          const std::size_t layer = c / faces;
           const CellEvidence e = gather_evidence(complex, weights, walk, face, layer, params.rays, scratch);
           terms.kappa[c] = between(0, e.kappa, 1);
           terms.vertical[c] = between(-1, e.vertical.front - e.vertical.back, 1);

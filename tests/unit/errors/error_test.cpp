@@ -43,7 +43,7 @@ TEST(Errors, TheExitCodeIsTheFirstProblems) {
 }
 
 TEST(Errors, AnErrorWithoutAProblemIsABug) {
-  EXPECT_THROW(StageError({}), std::logic_error);
+  EXPECT_THROW(throw StageError(std::vector<Problem>{}), std::logic_error);
 }
 
 TEST(Errors, EveryCodeHasAParagraphInTheCatalogueAndTheOtherWayRound) {

@@ -55,7 +55,7 @@ TEST(Plane, agrees_with_an_eigen_solver_on_random_clouds) {
         Eigen::HouseholderQR<Eigen::Matrix3d>(Eigen::Matrix3d::Random()).householderQ();
     const Eigen::Matrix3d covariance = 400 * turn * a * a.transpose() * turn.transpose();
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
-    const Eigen::Vector3d lambda = solver.eigenvalues();
+    const Eigen::Vector3d& lambda = solver.eigenvalues();
     if (lambda[0] > 0.5 * lambda[1]) {
       continue;  // no plane: nobody looks at the normal
     }
