@@ -8,7 +8,7 @@ MAKEFLAGS += --no-print-directory --no-builtin-rules
 
 # From the command line; passed on through the environment, so that names may hold spaces and any letters.
 BUILD ?= build
-export SCAN WORK CONFIG BUILD JOBS UP UNIT TRUTH QUIET
+export SCAN WORK CONFIG BUILD JOBS UP UNIT STATIONS TRUTH QUIET ONLY BASE OUT
 
 stages := ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines \
           final_partition final_weigh_faces final_raycast final_graphcut extract report
@@ -18,7 +18,7 @@ generator = $$(command -v ninja > /dev/null && echo "-G Ninja")
 quiet_make = env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL
 pipeline = +@sh stages/pipeline.sh
 
-.PHONY: help deps build test demo run status verify edit-lines diff-lines drop-edit evaluate bench tidy format ready \
+.PHONY: help deps build test demo run status verify edit-lines diff-lines drop-edit evaluate accuracy bench tidy format ready \
         $(stages) $(stages:%=rerun-%) $(stages:%=clean-%) $(stages:%=plot-%)
 
 help:
@@ -35,11 +35,14 @@ help:
 	'make edit-lines SCAN=…        copy the lines to work/office/edits/wall_lines.geojson, to be edited' \
 	'make diff-lines | drop-edit   what the edit changes | move it aside' \
 	'make report | evaluate TRUTH=truth.off | bench | tidy | format' \
+	'make accuracy                 scores of scenes with known truth, in one table; ONLY="virtual uniform_house_*" some of' \
+	'                              them, BASE=old.json what changed since, OUT=file the JSON (work/accuracy/accuracy.json)' \
 	'' \
 	'Stages: ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines' \
 	'        (second pass) final_partition final_weigh_faces final_raycast final_graphcut   extract report' \
 	'WORK=folder    instead of work/<name of the scan>      CONFIG=my.yaml  parameters instead of pipeline.yaml' \
-	'UP=y UNIT=mm   how the scan is to be read              JOBS=n          threads of a stage; default: all' \
+	'UP=y UNIT=mm   how the scan is to be read              STATIONS=file   scanner positions, x y z on each line' \
+	'JOBS=n         threads of a stage; default: all' \
 	'BUILD=folder   of the programs instead of build/       QUIET=1         errors only'
 
 deps:
@@ -78,6 +81,9 @@ $(stages:%=clean-%): ready
 	$(pipeline) clean $(@:clean-%=%)
 $(stages:%=plot-%): ready
 	$(pipeline) plot $(@:plot-%=%)
+
+accuracy: build
+	@$(quiet_make) python3 tests/accuracy/accuracy.py "$$BUILD"
 
 bench: build
 	@bash tests/bench/bench.sh "$$BUILD"

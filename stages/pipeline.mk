@@ -50,7 +50,8 @@ terms    := 60_raycast/data_terms.h5
 labels   := 70_graphcut/labels.h5
 final    := 90_final/cells.h5 90_final/weights.h5 90_final/data_terms.h5 90_final/labels.h5
 
-$(eval $(call stage,ingest,ingest,$(cloud),inputs/scan.id inputs/scan.options,--scan "$$$$ROOMCUT_SCAN" --up "$$$$ROOMCUT_UP" --unit "$$$$ROOMCUT_UNIT"))
+$(eval $(call stage,ingest,ingest,$(cloud),inputs/scan.id inputs/scan.options inputs/stations.txt,\
+  --scan "$$$$ROOMCUT_SCAN" --up "$$$$ROOMCUT_UP" --unit "$$$$ROOMCUT_UNIT" $$$$(test ! -s inputs/stations.txt || echo --stations inputs/stations.txt)))
 $(eval $(call stage,slice,slice,$(slices),$(cloud)))
 $(eval $(call stage,detect_lines,detect_lines,$(lines_30) 30_detect_lines/hough.h5,$(slices)))
 $(eval $(call stage,accept_lines,accept_lines,$(lines_40),$(lines_30) inputs/edit.id))

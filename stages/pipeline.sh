@@ -1,13 +1,13 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # usage: pipeline.sh run|status|verify|edit-lines|diff-lines|drop-edit|evaluate|plot|clean|rerun|make [NAME …]
-# One command on one work folder; the Makefile calls it. Reads SCAN, WORK, CONFIG, BUILD, JOBS, UP, UNIT, TRUTH, QUIET from the
-# environment. Works with any characters in file names: every name is quoted, and Make sees relative names only.
+# One command on one work folder; the Makefile calls it. Reads SCAN, WORK, CONFIG, BUILD, JOBS, UP, UNIT, STATIONS, TRUTH, QUIET
+# from the environment. Works with any characters in file names: every name is quoted, and Make sees relative names only.
 set -eu
 
 root=$(cd "$(dirname "$0")/.." && pwd)
 stages="ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines extract report"
-: "${SCAN:=}" "${WORK:=}" "${CONFIG:=}" "${BUILD:=$root/build}" "${JOBS:=}" "${UP:=}" "${UNIT:=}" "${TRUTH:=}" "${QUIET:=}"
+: "${SCAN:=}" "${WORK:=}" "${CONFIG:=}" "${BUILD:=$root/build}" "${JOBS:=}" "${UP:=}" "${UNIT:=}" "${STATIONS:=}" "${TRUTH:=}" "${QUIET:=}"
 
 fail() {
   echo "error[U01] $1" >&2
@@ -49,6 +49,7 @@ find_work_folder() {
   fi
   BUILD=$(absolute "$BUILD")
   BIN=$BUILD/bin
+  case $STATIONS in '' | none) ;; *) STATIONS=$(absolute "$STATIONS") ;; esac
   [ -z "$TRUTH" ] || TRUTH=$(absolute "$TRUTH")
 }
 
@@ -98,6 +99,21 @@ record_scan() {
   fi
 }
 
+# Scanner positions enter as a copy: said once, they hold until said otherwise; STATIONS=none takes them away. Empty: none given.
+record_stations() {
+  case $STATIONS in
+    '') [ -f inputs/stations.txt ] || : > inputs/stations.txt ;;
+    none) record inputs/stations.txt < /dev/null ;;
+    *)
+      [ -f "$STATIONS" ] || {
+        echo "error[C01] $STATIONS: there is no such file" >&2
+        echo "hint: STATIONS= names a text file with the scanner positions, x y z on each line" >&2
+        exit 3
+      }
+      record inputs/stations.txt < "$STATIONS" ;;
+  esac
+}
+
 # The hand edit enters by its bytes too, never by its time.
 record_edit() {
   if [ -f edits/wall_lines.geojson ]; then
@@ -143,6 +159,7 @@ record_params() {
 
 refresh() {
   record_scan
+  record_stations
   record_edit
   record_params
 }

@@ -96,7 +96,8 @@ Scores evaluate(const TriangleMesh& model, const TriangleMesh& truth, const std:
     scores.isprs.push_back({buffer, isprs_score(from_truth, from_model, SlopeClass::kWall, buffer),
                             isprs_score(from_truth, from_model, SlopeClass::kHorizontal, buffer)});
   }
-  scores.walls_matched = matched_wall_share(from_truth);
+  scores.walls_matched = matched_share(from_truth, SlopeClass::kWall);
+  scores.horizontals_matched = matched_share(from_truth, SlopeClass::kHorizontal);
   if (scores.model_check.closed() && scores.model_check.oriented()) {
     score_spaces(model, truth, rooms, params, from_truth, truth_surface.all(), scores);
   }

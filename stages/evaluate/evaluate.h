@@ -41,8 +41,8 @@ struct Scores {
     IsprsScore walls, horizontals;
   };
   std::vector<Isprs> isprs;
-  std::optional<double>
-      walls_matched;  ///< share of the truth's wall area within 1 degree and 2 cm of a model wall
+  /// Share of the truth's wall and horizontal area within 1 degree and 2 cm of a model surface.
+  std::optional<double> walls_matched, horizontals_matched;
   std::optional<VolumeScores> volume;
   std::vector<RoomScore> rooms;
   std::vector<std::vector<std::int32_t>> merged;  ///< groups of rooms

@@ -65,7 +65,8 @@ std::string scores_table(const Scores& s) {
   text += deviation_row("model to truth", s.model_to_truth, s.diagonal_m);
   text += deviation_row("truth to model", s.truth_to_model, s.diagonal_m);
   text += space_rows(s);
-  text += "walls within 1 deg and 2 cm   " + percent(s.walls_matched) + "\n";
+  text += "within 1 deg and 2 cm         walls " + percent(s.walls_matched) + ", floors and ceilings " +
+          percent(s.horizontals_matched) + "\n";
   text += "ISPRS within         complete      correct  accuracy m\n";
   for (const Scores::Isprs& at : s.isprs) {
     text += isprs_row(at.buffer_m, "walls", at.walls) + isprs_row(at.buffer_m, "horizontals", at.horizontals);

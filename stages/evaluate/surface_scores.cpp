@@ -122,9 +122,9 @@ SurfaceDistances measure(const TriangleMesh& from, const MeasuredSurface& from_s
           const bool same = slope_class(to.all().unit_normal(hit.triangle)) == out.slope[i];
           out.class_distance[i] =
               same ? hit.distance : to.of(out.slope[i]).nearest(sample.point, kClassLimit).distance;
-          if (out.slope[i] == SlopeClass::kWall && hit.distance <= kMatchDistance) {
+          if (out.slope[i] != SlopeClass::kSloped && hit.distance <= kMatchDistance) {
             const auto match =
-                to.of(SlopeClass::kWall)
+                to.of(out.slope[i])
                     .nearest_facing(sample.point, kMatchDistance + 1e-9, normal, std::cos(kDegree));
             out.matched[i] = match.triangle >= 0 ? 1 : 0;
           }
@@ -152,11 +152,11 @@ IsprsScore isprs_score(const SurfaceDistances& truth, const SurfaceDistances& mo
   return score;
 }
 
-std::optional<double> matched_wall_share(const SurfaceDistances& truth) {
+std::optional<double> matched_share(const SurfaceDistances& truth, SlopeClass slope) {
   double area = 0;
   double matched = 0;
   for (std::size_t i = 0; i < truth.samples.size(); ++i) {
-    if (truth.slope[i] == SlopeClass::kWall) {
+    if (truth.slope[i] == slope) {
       area += truth.samples[i].area_m2;
       matched += truth.matched[i] != 0 ? truth.samples[i].area_m2 : 0;
     }

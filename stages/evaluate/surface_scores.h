@@ -28,7 +28,7 @@ struct SurfaceDistances {
   std::vector<double>
       class_distance;  ///< to the other surface's triangles of the same slope class; infinite beyond 10 cm
   std::vector<std::uint8_t>
-      matched;  ///< 1 = a triangle within 1 degree (facing the same way) lies within 2 cm
+      matched;  ///< walls, horizontals: 1 = a triangle within 1 degree (facing the same way) is within 2 cm
   Deviation deviation;
 };
 
@@ -58,8 +58,8 @@ struct IsprsScore {
 IsprsScore isprs_score(const SurfaceDistances& truth, const SurfaceDistances& model, SlopeClass slope,
                        double buffer_m);
 
-/// Share of the wall area of `truth` with a matching model wall within 1 degree and 2 cm; empty without
-/// walls.
-std::optional<double> matched_wall_share(const SurfaceDistances& truth);
+/// Share of the area of one slope class of `truth` (walls or horizontals) with a model surface of that class
+/// that faces the same way within 1 degree and lies within 2 cm; empty without such area.
+std::optional<double> matched_share(const SurfaceDistances& truth, SlopeClass slope);
 
 }  // namespace roomcut

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 #include "common/random/counter_random.h"
@@ -139,6 +140,7 @@ class Generator {
       below = std::move(rooms);
       floor += height + std::round(draw(0.2, 0.4) * 20) / 20;
     }
+    close_rooms();
   }
 
  private:
@@ -153,6 +155,7 @@ class Generator {
   void add_doors(const std::vector<Lot>& lots, const std::vector<int>& rooms, double turn);
   void add_windows(const Lot& lot, int room, double turn);
   void add_shaft(const std::vector<int>& below, const std::vector<int>& above, int storey);
+  void close_rooms();
 
   const FamilySpec& spec_;
   const Family& family_;
@@ -321,6 +324,31 @@ void Generator::add_shaft(const std::vector<int>& below, const std::vector<int>&
   const Vec2 other(-side.y(), side.x());
   best.polygon = {centre - side - other, centre + side - other, centre + side + other, centre - side + other};
   scene_.shafts.push_back(best);
+}
+
+/// Chooses the rooms that no scanner enters, in random order; the building itself stays the same.
+void Generator::close_rooms() {
+  const std::size_t wanted = static_cast<std::size_t>(std::lround(spec_.unscanned * scene_.rooms.size()));
+  std::vector<std::size_t> order(scene_.rooms.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto rank = [&](std::size_t room) { return random_unit(spec_.seed, 0x636c6f73, room); };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+  std::vector<bool> needed(order.size(), false);  // to look from into a closed room
+  std::size_t closed = 0;
+  for (const std::size_t room : order) {
+    if (closed == wanted) return;
+    if (needed[room]) continue;
+    for (const SceneDoor& door : scene_.doors) {
+      const auto a = static_cast<std::size_t>(door.room_a);
+      const auto b = static_cast<std::size_t>(door.room_b);
+      const std::size_t other = a == room ? b : a;
+      if ((a != room && b != room) || !scene_.rooms[other].scanned) continue;
+      needed[other] = true;
+      scene_.rooms[room].scanned = false;
+      ++closed;
+      break;
+    }
+  }
 }
 
 }  // namespace

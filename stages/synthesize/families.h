@@ -16,6 +16,8 @@ struct FamilySpec {
   int rooms = 0;       ///< per storey, about; 0 = the family's own range
   bool doors = true;   ///< a way into every room, and some more doors
   bool shafts = true;  ///< stairwells between the storeys
+  double unscanned =
+      0;  ///< share of the rooms that no scanner enters; each has a door to one that is entered
 };
 
 const std::vector<std::string>& family_names();

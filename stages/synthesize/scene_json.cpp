@@ -233,6 +233,7 @@ void SceneParser::parse_random(const json& value, const std::string& path) {
   spec.rooms = static_cast<int>(node.integer("rooms", 0, 0, 500));
   spec.doors = node.boolean("doors", true);
   spec.shafts = node.boolean("shafts", true);
+  spec.unscanned = node.number("unscanned", 0, 0, 0.9);
   add_random_building(spec, scene_);
   for (std::size_t i = 0; i < scene_.rooms.size(); ++i)
     room_by_name_[scene_.rooms[i].name] = static_cast<int>(i);

@@ -7,7 +7,7 @@ SOURCE=$(cd "$(dirname "$0")/../.." && pwd)
 BUILD=$(realpath "$1")
 shift
 [ $# -gt 0 ] || set -- 1000000 4000000 10000000
-unset MAKEFLAGS MFLAGS MAKELEVEL SCAN WORK CONFIG JOBS UP UNIT TRUTH QUIET
+unset MAKEFLAGS MFLAGS MAKELEVEL SCAN WORK CONFIG JOBS UP UNIT STATIONS TRUTH QUIET
 place=$(mktemp -d "${TMPDIR:-/tmp}/roomcut-bench.XXXXXX")
 trap 'rm -rf "$place"' EXIT
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Helpers of the pipeline tests; sourced. Needs SOURCE and BUILD (absolute), sets up a folder with an awkward name and a small scan.
 set -u
-unset MAKEFLAGS MFLAGS MAKELEVEL SCAN WORK CONFIG JOBS UP UNIT TRUTH QUIET
+unset MAKEFLAGS MFLAGS MAKELEVEL SCAN WORK CONFIG JOBS UP UNIT STATIONS TRUTH QUIET
 
 ALL="ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines final_partition \
 final_weigh_faces final_raycast final_graphcut extract report"

@@ -217,6 +217,28 @@ mk ingest
 check "… and holds for the next run" ran_exactly ""
 scan=$(realpath "$SOURCE/$scan") && work=$first_work
 
+# Scanner positions: by content, remembered, taken away with none.
+printf '2.5 2.0 1.6\n' > "$place/scanner positions.txt"
+mark
+check "STATIONS=file" mk ingest STATIONS="$place/scanner positions.txt"
+check "… reads the scan again" ran_exactly "ingest"
+h5dump -d /stations/xyz "$work/10_ingest/cloud.h5" > "$output" 2>&1
+check "… and writes the positions" grep -q '2.5, 2, 1.6' "$output"
+mark
+touch "$place/scanner positions.txt"
+mk ingest STATIONS="$place/scanner positions.txt"
+rm "$place/scanner positions.txt"
+mk ingest
+check "… they hold, whatever becomes of the file" ran_exactly ""
+mk ingest STATIONS="$place/nowhere.txt" && not_ok "a missing file is an error" || ok "a missing file is an error"
+check "… that is named" grep -q 'error\[C01\].*nowhere.txt' "$output"
+mark
+mk ingest STATIONS=none
+check "STATIONS=none takes them away" ran_exactly "ingest"
+mk run
+digests "$work" > "$place/now"
+check "… and the result is the first again" cmp "$place/first" "$place/now"
+
 mark
 make_scan 2 "$scan"
 check "another scan of the same name" mk run

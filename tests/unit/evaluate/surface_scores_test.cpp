@@ -44,12 +44,18 @@ TEST(SurfaceScores, AModelShiftedAlongXMovesTwoWallsOnly) {
   const IsprsScore at_1cm = isprs_score(truth, reverse, SlopeClass::kWall, 0.01);
   EXPECT_DOUBLE_EQ(*at_1cm.completeness, 1);
   EXPECT_DOUBLE_EQ(*at_1cm.correctness, 1);
-  EXPECT_NEAR(*matched_wall_share(truth), 1, 1e-12);
+  EXPECT_NEAR(*matched_share(truth, SlopeClass::kWall), 1, 1e-12);
 }
 
 TEST(SurfaceScores, AWallThatIsOffByMoreThanTwoCentimetresDoesNotMatch) {
   const SurfaceDistances truth = from_to(kTruth, box({0.021, 0, 0}, {6, 4, 3}));
-  EXPECT_NEAR(*matched_wall_share(truth), 48.0 / 60, 2e-3);
+  EXPECT_NEAR(*matched_share(truth, SlopeClass::kWall), 48.0 / 60, 2e-3);
+}
+
+TEST(SurfaceScores, ACeilingThatIsOffByMoreThanTwoCentimetresDoesNotMatchButItsFloorDoes) {
+  EXPECT_NEAR(*matched_share(from_to(kTruth, kTruth), SlopeClass::kHorizontal), 1, 1e-12);
+  const SurfaceDistances truth = from_to(kTruth, box({0, 0, 0}, {6, 4, 3.021}));
+  EXPECT_NEAR(*matched_share(truth, SlopeClass::kHorizontal), 0.5, 2e-3);
 }
 
 TEST(SurfaceScores, AWallTurnedByMoreThanOneDegreeDoesNotMatch) {
@@ -59,7 +65,7 @@ TEST(SurfaceScores, AWallTurnedByMoreThanOneDegreeDoesNotMatch) {
       p.x() += 4 * std::tan(1.2 * std::numbers::pi / 180);  // the wall at x = 6 turns about y = 0
   }
   const SurfaceDistances truth = from_to(kTruth, model);
-  EXPECT_NEAR(*matched_wall_share(truth), 48.0 / 60, 5e-3);
+  EXPECT_NEAR(*matched_share(truth, SlopeClass::kWall), 48.0 / 60, 5e-3);
   EXPECT_LT(*isprs_score(truth, from_to(model, kTruth), SlopeClass::kWall, 0.02).completeness, 1);
 }
 

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "common/mesh/mesh_check.h"
 #include "stages/synthesize/truth.h"
 #include "stages/synthesize/walls.h"
@@ -49,6 +52,25 @@ TEST_P(Families, WithoutDoorsEveryRoomStandsAlone) {
   const MeshCheck check = check_mesh(make_truth(scene, place(scene)));
   EXPECT_TRUE(check.valid());
   EXPECT_EQ(check.components, static_cast<std::int64_t>(scene.rooms.size()));
+}
+
+TEST_P(Families, RoomsThatNoScannerEntersHaveADoorToOneThatIsEntered) {
+  Scene scene;
+  FamilySpec spec;
+  spec.family = GetParam();
+  spec.unscanned = 0.25;
+  add_random_building(spec, scene);
+  std::size_t closed = 0;
+  for (std::size_t room = 0; room < scene.rooms.size(); ++room) {
+    if (scene.rooms[room].scanned) continue;
+    ++closed;
+    const auto looks_in = [&](const SceneDoor& door) {
+      return (door.room_a == static_cast<int>(room) && scene.rooms[door.room_b].scanned) ||
+             (door.room_b == static_cast<int>(room) && scene.rooms[door.room_a].scanned);
+    };
+    EXPECT_TRUE(std::any_of(scene.doors.begin(), scene.doors.end(), looks_in)) << scene.rooms[room].name;
+  }
+  EXPECT_EQ(closed, static_cast<std::size_t>(std::lround(0.25 * static_cast<double>(scene.rooms.size()))));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Families, testing::ValuesIn(family_names()),

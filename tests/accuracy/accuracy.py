@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How right the models are: runs scenes of known truth with default parameters, scores them, prints one table, writes it as JSON.
+
+usage: accuracy.py BUILD; from the environment ONLY (which scenes), BASE (an earlier result to compare with), OUT (where to write),
+JOBS (scenes at a time), ROOT (of the work folders, instead of work/accuracy). Exit code 1 when a scene gave no model or no valid one.
+"""
+import json
+import os
+import sys
+from concurrent.futures import ThreadPoolExecutor
+
+import scene_run
+import scenes
+import table
+
+SOURCE = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
+DATA = os.path.join(SOURCE, "..", "shared", "data", "virtual")
+ROOT = os.environ.get("ROOT") or os.path.join(SOURCE, "work", "accuracy")
+
+
+def fail(text, hint):
+    print(f"error[U01] make accuracy: {text}\nhint: {hint}", file=sys.stderr)
+    sys.exit(2)
+
+
+def run_all(chosen, build, jobs):
+    rows, done = {}, 0
+    with ThreadPoolExecutor(jobs) as pool:
+        for row in pool.map(lambda scene: scene_run.run_scene(SOURCE, build, scene, ROOT), chosen):
+            rows[row["name"]] = row
+            done += 1
+            print(f"[{done}/{len(chosen)}] {row['name']}: {row.get('error') or format(row['iou'], '.4f')}", file=sys.stderr, flush=True)
+    return [rows[scene["name"]] for scene in chosen]
+
+
+def load_base(path):
+    try:
+        return scene_run.read_json(path)
+    except (OSError, ValueError) as problem:
+        fail(f"BASE={path}: {problem}", "BASE= names the JSON of an earlier make accuracy")
+
+
+def main():
+    build = os.path.abspath(sys.argv[1])
+    base = load_base(os.environ["BASE"]) if os.environ.get("BASE") else None
+    every = scenes.all_scenes(DATA)
+    if not any("folder" in scene for scene in every):
+        print("virtual buildings skipped: no ../shared/data")
+    try:
+        chosen = scenes.choose(every, os.environ.get("ONLY", ""))
+    except ValueError as problem:
+        fail(problem, "ONLY= takes groups, families, buildings, scenes or patterns, separated by spaces or commas")
+    rows = run_all(chosen, build, int(os.environ.get("JOBS") or os.cpu_count()))
+    groups = table.group_rows(rows)
+    out = os.path.abspath(os.environ.get("OUT") or os.path.join(ROOT, "accuracy.json"))
+    with open(out + ".new", "w", encoding="utf-8") as text:
+        json.dump({"artefact": "accuracy", "schema_version": "1.0", "groups": groups, "scenes": rows}, text, indent=1)
+        text.write("\n")
+    os.replace(out + ".new", out)
+    print(table.table(rows, groups))
+    if base:
+        print(table.changes(rows, groups, base))
+    print(f"written: {os.path.relpath(out)}")
+    sys.exit(0 if all(row.get("valid") for row in rows) else 1)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One scene of `make accuracy`: scan, model, scores. What is up to date is not made again."""
+import json
+import os
+import subprocess
+
+# Stages whose processor time counts: all that the model needs.
+STAGES = ("ingest", "slice", "detect_lines", "accept_lines", "partition", "weigh_faces", "raycast", "graphcut", "refine_lines",
+          "final_partition", "final_weigh_faces", "final_raycast", "final_graphcut", "extract")
+OUTER = ("MAKEFLAGS", "MFLAGS", "MAKELEVEL", "SCAN", "WORK", "CONFIG", "JOBS", "UP", "UNIT", "STATIONS", "TRUTH", "QUIET")
+
+
+class Failed(Exception):
+    """A stage gave up; the text is its first error."""
+
+
+def read_json(path):
+    with open(path, encoding="utf-8") as text:
+        return json.load(text)
+
+
+def write_if_changed(path, text):
+    if not os.path.isfile(path) or open(path, encoding="utf-8").read() != text:
+        with open(path, "w", encoding="utf-8") as out:
+            out.write(text)
+
+
+def run(command, **variables):
+    environment = {name: value for name, value in os.environ.items() if name not in OUTER}
+    done = subprocess.run(command, capture_output=True, text=True, check=False, env={**environment, **variables})
+    if done.returncode != 0:
+        lines = [line for line in done.stderr.splitlines() if line.startswith("error")] or done.stderr.splitlines() or ["no message"]
+        raise Failed(lines[0])
+
+
+def is_fresh(stamp, key, files):
+    """Whether `files` are there and `stamp` holds `key`, which says what they were made from."""
+    return all(map(os.path.isfile, files)) and os.path.isfile(stamp) and open(stamp, encoding="utf-8").read() == key
+
+
+def identity(path):
+    status = os.stat(path)
+    return f"{path} {status.st_size} {status.st_mtime_ns}"
+
+
+def make_scan(build, scene, work):
+    """Paths of scan, truth mesh and truth.json."""
+    if "folder" in scene:
+        return [os.path.join(scene["folder"], name) for name in ("cloud.ply", "truth.off", "truth.json")]
+    files = [os.path.join(work, name) for name in ("scan.ply", "truth.off", "truth.json")]
+    source, stamp = os.path.join(work, "scene.json"), os.path.join(work, "scene.stamp")
+    program = os.path.join(build, "bin", "synthesize")
+    key = json.dumps(scene["scene"], indent=1) + subprocess.run([program, "--dump-params"], capture_output=True, text=True, check=True).stdout
+    if not is_fresh(stamp, key, files):
+        write_if_changed(source, json.dumps(scene["scene"], indent=1))
+        run([program, "-q", "--threads", "1", "--scene", source, "--scan-out", files[0], "--truth-out", files[1], "--truth-json", files[2]])
+        write_if_changed(stamp, key)
+    return files
+
+
+def stations_file(scene, truth_json, work):
+    """STATIONS of the pipeline: the positions that the truth names, or none."""
+    if not scene.get("stations"):
+        return "none"
+    path = os.path.join(work, "stations.txt")
+    positions = [" ".join(map(str, station["position"])) for station in read_json(truth_json)["stations"]]
+    write_if_changed(path, "\n".join(positions) + "\n")
+    return path
+
+
+def evaluate(build, work, truth, truth_json):
+    program, model = os.path.join(build, "bin", "evaluate"), os.path.join(work, "model.ply")
+    scores, stamp = os.path.join(work, "evaluate", "scores.json"), os.path.join(work, "evaluate", "scores.stamp")
+    key = "\n".join(map(identity, (program, model, truth, truth_json)))
+    if not is_fresh(stamp, key, [scores]):
+        run([program, "-q", "--threads", "1", "--work", work, "--truth", truth, "--truth-json", truth_json])
+        write_if_changed(stamp, key)
+    return read_json(scores)
+
+
+def cpu_seconds(work):
+    """Of the stages' last runs, up to the model."""
+    return sum(read_json(os.path.join(work, "logs", name + ".json"))["cpu_s"] for name in STAGES)
+
+
+def row_of(scores, truth):
+    """What the table shows of one scene; a model that is not closed has no volume and found no room."""
+    volume, rooms, thin, mesh = (scores[name] or {} for name in ("volume", "rooms", "thin", "mesh"))
+    scanned = {room["name"] for room in truth["rooms"] if room.get("scanned", True)}
+    lost = [room["name"] for room in rooms.get("list", []) if not room["found"]]
+    count = rooms.get("truth", len(truth["rooms"]))
+    return {"iou": volume.get("iou", 0.0), "recall": volume.get("recall", 0.0), "precision": volume.get("precision", 0.0),
+            "rooms": count, "found": rooms.get("found", 0), "missed": rooms.get("missed", count),
+            "missed_scanned": sum(name in scanned for name in lost) if rooms else len(scanned),
+            "merged": rooms.get("merged", 0), "thin_kept": thin.get("walls_kept"), "walls": scores["walls_within_1deg_2cm"],
+            "horizontals": scores["horizontals_within_1deg_2cm"],
+            "hausdorff_pct": scores["distance"]["symmetric"]["hausdorff_pct"], "valid": mesh["valid"]}
+
+
+def run_scene(source, build, scene, root):
+    """Makes what is not up to date, scores it, and returns the scene's row; `error` in it says why there are no figures."""
+    row = {"name": scene["name"], "group": scene["group"], "kind": scene["kind"]}
+    work = os.path.join(root, scene["name"])
+    os.makedirs(work, exist_ok=True)
+    try:
+        scan, truth, truth_json = make_scan(build, scene, work)
+        run(["make", "--no-print-directory", "-C", source, "extract"], SCAN=scan, WORK=work, BUILD=build, JOBS="1", QUIET="1",
+            STATIONS=stations_file(scene, truth_json, work))
+        row.update(row_of(evaluate(build, work, truth, truth_json), read_json(truth_json)))
+        row["cpu_s"] = round(cpu_seconds(work), 3)
+    except Failed as failure:
+        row["error"] = str(failure)
+    return row

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Means of groups, the table of `make accuracy`, and what changed since an earlier one."""
+
+# key, head, width, decimals; counts are summed over a group, shares averaged.
+SHARES = (("iou", "IoU", 7, 4), ("recall", "recall", 7, 4), ("precision", "precis.", 7, 4))
+COUNTS = ("rooms", "found", "merged", "missed", "missed_scanned")
+MORE_SHARES = (("thin_kept", "thin", 6, 3), ("walls", "walls", 6, 3), ("horizontals", "horiz.", 6, 3), ("hausdorff_pct", "Hausd.%", 8, 3))
+AVERAGED = [column[0] for column in SHARES + MORE_SHARES] + ["cpu_s"]
+# A scene that gave no model counts as this, so that it cannot vanish from the means.
+OF_FAILED = {"iou": 0.0, "recall": 0.0, "precision": 0.0, "thin_kept": 0.0, "walls": 0.0, "horizontals": 0.0}
+
+
+def mean(values):
+    known = [value for value in values if value is not None]
+    return sum(known) / len(known) if known else None
+
+
+def group_rows(rows):
+    """One row per group: means of the shares, sums of the counts, how many models are valid."""
+    groups = []
+    for group in dict.fromkeys(row["group"] for row in rows):
+        members = [row for row in rows if row["group"] == group]
+        complete = [{**OF_FAILED, **row} if "error" in row else row for row in members]
+        summary = {"name": group, "scenes": len(members), "failed": sum("error" in row for row in members)}
+        summary.update({key: mean([row.get(key) for row in complete]) for key in AVERAGED})
+        summary.update({key: sum(row.get(key, 0) for row in members) for key in COUNTS})
+        summary["valid"] = sum(bool(row.get("valid")) for row in members)
+        summary["worst_iou"] = min(row["iou"] for row in complete)
+        groups.append(summary)
+    return groups
+
+
+def number(value, width, decimals):
+    return f"{'–' if value is None else format(value, f'.{decimals}f'):>{width}}"
+
+
+def line(row, width):
+    cells = [f"{row['name']:<{width}}"]
+    if "error" in row:
+        return f"{cells[0]}  FAILED: {row['error']}"
+    cells += [number(row[key], w, d) for key, _, w, d in SHARES]
+    cells += [f"{row['found']:>4}/{row['rooms']:<4}", f"{row['merged']:>6}", f"{row['missed']:>6}", f"{row['missed_scanned']:>7}"]
+    cells += [number(row[key], w, d) for key, _, w, d in MORE_SHARES]
+    valid = f"{row['valid']}/{row['scenes']}" if "scenes" in row else ("yes" if row["valid"] else "NO")
+    return " ".join(cells + [f"{valid:>6}", number(row["cpu_s"], 6, 2)])
+
+
+def head(width):
+    names = [f"{'scene':<{width}}"] + [f"{name:>{w}}" for _, name, w, _ in SHARES]
+    names += [f"{'rooms':<9}", "merged", "missed", "scanned"] + [f"{name:>{w}}" for _, name, w, _ in MORE_SHARES]
+    return " ".join(names + [f"{'valid':>6}", f"{'cpu s':>6}"])
+
+
+def table(rows, groups):
+    width = max(len(row["name"]) for row in rows + groups)
+    rule = "-" * len(head(width))
+    return "\n".join([head(width), rule] + [line(row, width) for row in rows] + [rule, "means (rooms: sums)"] +
+                     [line(group, width) for group in groups])
+
+
+def changes(rows, groups, base):
+    """Lines that name what differs from an earlier result, for groups over the scenes that both have, and for each scene."""
+    before = {row["name"]: row for row in base["scenes"]}
+    common = {row["name"] for row in rows} & set(before)
+    lines = [f"against the base: {len(common)} scenes in common"]
+    old_groups = {group["name"]: group for group in group_rows([before[name] for name in before if name in common])}
+    new_groups = group_rows([row for row in rows if row["name"] in common])
+    lines += [f"  mean {text}" for group in new_groups for text in differences(old_groups[group["name"]], group)]
+    lines += [f"  {text}" for row in rows if row["name"] in common for text in differences(before[row["name"]], row)]
+    return "\n".join(lines if len(lines) > 1 else lines + ["  nothing differs"])
+
+
+def differences(old, new):
+    if "error" in new or "error" in old:
+        return [] if old.get("error") == new.get("error") else [f"{new['name']}: {old.get('error', 'a model')} -> {new.get('error', 'a model')}"]
+    parts = []
+    for key, _, _, decimals in SHARES + MORE_SHARES:
+        a, b = old.get(key), new.get(key)
+        if a is None or b is None or round(a, decimals) == round(b, decimals):
+            continue
+        parts.append(f"{key} {a:.{decimals}f} -> {b:.{decimals}f} ({b - a:+.{decimals}f})")
+    parts += [f"{key} {old[key]} -> {new[key]}" for key in (*COUNTS, "valid") if old.get(key) != new.get(key)]
+    return [f"{new['name']}: " + ", ".join(parts)] if parts else []
