@@ -27,7 +27,8 @@ void require_closed_truth(const MeshCheck& check) {
 
 void score_spaces(const TriangleMesh& model, const TriangleMesh& truth,
                   const std::vector<DescribedRoom>& described, const EvaluateParams& params,
-                  const SurfaceDistances& truth_samples, const MeshTree& truth_tree, Scores& scores) {
+                  const SurfaceDistances& truth_samples, const MeasuredSurface& truth_surface,
+                  const LabelledCells* cells, Scores& scores) {
   const Columns truth_columns(truth);
   const Columns model_columns(model);
   const std::vector<TruthRoom> rooms = locate_rooms(described, truth_columns);
@@ -46,8 +47,14 @@ void score_spaces(const TriangleMesh& model, const TriangleMesh& truth,
     found.push_back(room.found ? 1 : 0);
     scores.rooms.push_back(std::move(room));
   }
-  scores.thin = score_thin_walls(truth_samples, truth_tree, finder, model_columns, params.thin_wall_m);
+  scores.thin =
+      score_thin_walls(truth_samples, truth_surface.all(), finder, model_columns, params.thin_wall_m);
   scores.merged = merged_rooms(scores.thin, found);
+  if (cells != nullptr) {
+    scores.explanation = explain({cells->complex, cells->label, cells->terms ? &*cells->terms : nullptr,
+                                  truth_columns, truth_surface, rooms, finder, found, scores.thin, b},
+                                 scores.column_spacing_m, kColumnSeed);
+  }
 }
 
 }  // namespace
@@ -77,7 +84,7 @@ TriangleMesh prepared(const TriangleMesh& mesh, const Vec3& origin) {
 }
 
 Scores evaluate(const TriangleMesh& model, const TriangleMesh& truth, const std::vector<DescribedRoom>& rooms,
-                const EvaluateParams& params) {
+                const EvaluateParams& params, const LabelledCells* cells) {
   Scores scores;
   scores.truth_check = check_mesh(truth);
   require_closed_truth(scores.truth_check);
@@ -99,7 +106,7 @@ Scores evaluate(const TriangleMesh& model, const TriangleMesh& truth, const std:
   scores.walls_matched = matched_share(from_truth, SlopeClass::kWall);
   scores.horizontals_matched = matched_share(from_truth, SlopeClass::kHorizontal);
   if (scores.model_check.closed() && scores.model_check.oriented()) {
-    score_spaces(model, truth, rooms, params, from_truth, truth_surface.all(), scores);
+    score_spaces(model, truth, rooms, params, from_truth, truth_surface, cells, scores);
   }
   return scores;
 }

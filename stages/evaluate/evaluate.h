@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/mesh/mesh_check.h"
+#include "stages/evaluate/explain.h"
 #include "stages/evaluate/surface_scores.h"
 #include "stages/evaluate/thin_walls.h"
 #include "stages/evaluate/truth_rooms.h"
@@ -47,6 +48,7 @@ struct Scores {
   std::vector<RoomScore> rooms;
   std::vector<std::vector<std::int32_t>> merged;  ///< groups of rooms
   ThinWallScores thin;
+  std::optional<Explanation> explanation;
 
   std::size_t found() const;
   std::size_t in_merged_groups() const;
@@ -57,9 +59,10 @@ struct Scores {
 TriangleMesh prepared(const TriangleMesh& mesh, const Vec3& origin);
 
 /// Scores `model` against `truth`, both prepared() with the same origin, which lies near them; `rooms` in the
-/// same frame. Throws StageError(kMeshNotClosed) when the truth is not a closed, oriented mesh. Parallel; the
-/// same result for any number of threads.
+/// same frame; `cells`, if given, are those that the model was made of, and are explained. Throws
+/// StageError(kMeshNotClosed) when the truth is not a closed, oriented mesh. Parallel; the same result for
+/// any number of threads.
 Scores evaluate(const TriangleMesh& model, const TriangleMesh& truth, const std::vector<DescribedRoom>& rooms,
-                const EvaluateParams& params);
+                const EvaluateParams& params, const LabelledCells* cells = nullptr);
 
 }  // namespace roomcut

@@ -16,6 +16,14 @@ namespace roomcut {
 /// that.
 std::vector<DescribedRoom> read_described_rooms(const std::filesystem::path& path, const Vec3& origin);
 
+/// The cells, labels and, if given, data terms of one pass, moved by -`origin`. Errors as in cells_io.h.
+LabelledCells read_labelled_cells(const std::filesystem::path& cells, const std::filesystem::path& labels,
+                                  const std::filesystem::path& terms, const Vec3& origin);
+
+/// The member `explanation` of scores.json, and its rows in the table.
+Json explanation_json(const Explanation& explanation, const Scores& scores);
+std::string explanation_rows(const Explanation& explanation, const Scores& scores);
+
 /// The members of scores.json (schemas/scores.md).
 Json scores_json(const Scores& scores);
 

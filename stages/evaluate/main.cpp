@@ -16,9 +16,13 @@ StageInfo info() {
   stage.name = "evaluate";
   stage.revision = 1;
   stage.summary = "Scores a model against a truth mesh";
-  stage.inputs = {{"model", "model.ply", "Mesh to judge: PLY, OFF or OBJ"},
-                  {"truth", "", "Closed mesh of the rooms' empty space: OFF, PLY or OBJ"},
-                  {"truth-json", "truth.json", "Rooms of the truth; without it every body is a room", true}};
+  stage.inputs = {
+      {"model", "model.ply", "Mesh to judge: PLY, OFF or OBJ"},
+      {"truth", "", "Closed mesh of the rooms' empty space: OFF, PLY or OBJ"},
+      {"truth-json", "truth.json", "Rooms of the truth; without it every body is a room", true},
+      {"cells", "", "Cells that the model was made of (90_final/cells.h5): explains what is wrong", true},
+      {"labels", "", "Their labels; required with --cells", true},
+      {"terms", "", "Their data terms: adds the evidence", true}};
   stage.outputs = {{"scores", "evaluate/scores.json", "All scores"},
                    {"coloured", "evaluate/distance.ply", "The model coloured by its distance to the truth"},
                    {"picture", "evaluate/distance.png", "The same as a picture"}};
@@ -36,7 +40,11 @@ void body(StageRun& run, const EvaluateParams& params) {
   }
   const TriangleMesh truth = prepared(truth_file, origin);
   const TriangleMesh model = prepared(model_file, origin);
-  const Scores scores = evaluate(model, truth, rooms, params);
+  std::optional<LabelledCells> cells;
+  if (!run.input("cells").empty()) {
+    cells = read_labelled_cells(run.input("cells"), run.input("labels"), run.input("terms"), origin);
+  }
+  const Scores scores = evaluate(model, truth, rooms, params, cells ? &*cells : nullptr);
   const DistanceMesh coloured = measure_for_display(model, MeshTree(truth));
   write_distance_ply(run.output("coloured"), coloured, origin, params.colour_range_m);
   write_distance_png(run.output("picture"), coloured, params.colour_range_m);

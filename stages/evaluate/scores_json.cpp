@@ -121,6 +121,7 @@ Json scores_json(const Scores& scores) {
           {"horizontals_within_1deg_2cm", or_null(scores.horizontals_matched)},
           {"rooms", rooms_json(scores)},
           {"thin", thin_json(scores)},
+          {"explanation", scores.explanation ? explanation_json(*scores.explanation, scores) : Json(nullptr)},
           {"sampling",
            {{"sample_spacing_m", scores.sample_spacing_m},
             {"model_samples", scores.model_samples},

@@ -71,6 +71,9 @@ std::string scores_table(const Scores& s) {
   for (const Scores::Isprs& at : s.isprs) {
     text += isprs_row(at.buffer_m, "walls", at.walls) + isprs_row(at.buffer_m, "horizontals", at.horizontals);
   }
+  if (s.explanation) {
+    text += explanation_rows(*s.explanation, s);
+  }
   return text;
 }
 

@@ -14,6 +14,7 @@ namespace {
 struct ThinPlace {
   bool thin = false, kept = false;
   std::int32_t near_room = -1, far_room = -1;
+  Vec3 middle{0, 0, 0};
 };
 
 ThinPlace inspect(const SurfaceSample& sample, const MeshTree& tree, const RoomFinder& finder,
@@ -27,7 +28,8 @@ ThinPlace inspect(const SurfaceSample& sample, const MeshTree& tree, const RoomF
     return place;
   }
   place.thin = true;
-  place.kept = !model.inside(sample.point + 0.5 * hit.distance * normal);
+  place.middle = sample.point + 0.5 * hit.distance * normal;
+  place.kept = !model.inside(place.middle);
   place.near_room = finder.at_surface(sample.point, sample.triangle, normal);
   place.far_room =
       finder.at_surface(sample.point + hit.distance * normal, hit.triangle, tree.unit_normal(hit.triangle));
@@ -62,6 +64,9 @@ ThinWallScores score_thin_walls(const SurfaceDistances& truth_samples, const Mes
       auto& pair = pairs.try_emplace({a, b}, ThinWallScores::Pair{a, b}).first->second;
       pair.area_m2 += area;
       pair.missing_m2 += place.kept ? 0 : area;
+      if (!place.kept) {
+        out.lost.push_back({a, b, place.middle, truth_tree.unit_normal(samples[i].triangle), area, wall});
+      }
     }
   }
   constexpr double kLeastArea = 0.5;
@@ -80,7 +85,7 @@ std::vector<std::vector<std::int32_t>> merged_rooms(const ThinWallScores& thin,
   for (const ThinWallScores::Pair& pair : thin.pairs) {
     const bool both =
         found[static_cast<std::size_t>(pair.a)] != 0 && found[static_cast<std::size_t>(pair.b)] != 0;
-    if (both && pair.missing_m2 > 0.5 * pair.area_m2) {
+    if (both && ThinWallScores::is_lost(pair)) {
       const std::int32_t a = group[static_cast<std::size_t>(pair.a)];
       const std::int32_t b = group[static_cast<std::size_t>(pair.b)];
       std::replace(group.begin(), group.end(), std::max(a, b), std::min(a, b));

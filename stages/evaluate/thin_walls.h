@@ -22,6 +22,17 @@ struct ThinWallScores {
     double area_m2 = 0, missing_m2 = 0;
   };
   std::vector<Pair> pairs;  ///< sorted by (a, b)
+  /// A thin place between two rooms where the model is empty.
+  struct LostPlace {
+    std::int32_t a, b;  ///< rooms, a < b
+    Vec3 middle, normal;
+    double area_m2;
+    bool wall;  ///< upright, else a slab
+  };
+  std::vector<LostPlace> lost;
+
+  /// Whether more than half of what stands between the two rooms is missing.
+  static bool is_lost(const Pair& pair) { return pair.missing_m2 > 0.5 * pair.area_m2; }
 };
 
 ThinWallScores score_thin_walls(const SurfaceDistances& truth_samples, const MeshTree& truth_tree,

@@ -25,12 +25,15 @@ def fail(text, hint):
 
 
 def run_all(chosen, build, jobs):
-    rows, done = {}, 0
+    rows, tasks = {}, {}
+    for scene in chosen:  # those that share a folder run one after the other
+        tasks.setdefault(scene.get("work", scene["name"]), []).append(scene)
     with ThreadPoolExecutor(jobs) as pool:
-        for row in pool.map(lambda scene: scene_run.run_scene(SOURCE, build, scene, ROOT), chosen):
-            rows[row["name"]] = row
-            done += 1
-            print(f"[{done}/{len(chosen)}] {row['name']}: {row.get('error') or format(row['iou'], '.4f')}", file=sys.stderr, flush=True)
+        for made in pool.map(lambda task: [scene_run.run_scene(SOURCE, build, scene, ROOT) for scene in task], tasks.values()):
+            for row in made:
+                rows[row["name"]] = row
+                result = row.get("error") or f"{row['iou']:.4f}{'' if row['valid'] else ' NOT VALID'}"
+                print(f"[{len(rows)}/{len(chosen)}] {row['name']}: {result}", file=sys.stderr, flush=True)
     return [rows[scene["name"]] for scene in chosen]
 
 

@@ -22,7 +22,7 @@ NOWHERE = "/nonexistent"
 
 def row(name, group="g", **figures):
     given = {"iou": 1.0, "recall": 1.0, "precision": 1.0, "rooms": 4, "found": 4, "missed": 0, "missed_scanned": 0, "merged": 0,
-             "thin_kept": 1.0, "walls": 1.0, "horizontals": 1.0, "hausdorff_pct": 0.1, "valid": True, "cpu_s": 1.0}
+             "bound": 1.0, "lost": {"labels": 0.1}, "extra": {"labels": 0.0}, "thin_kept": 1.0, "walls": 1.0, "horizontals": 1.0, "hausdorff_pct": 0.1, "valid": True, "cpu_s": 1.0}
     return {"name": name, "group": group, "kind": "office", **given, **figures}
 
 
@@ -42,6 +42,8 @@ class Choice(unittest.TestCase):
         self.assertEqual(len(self.names("uniform")), 5 * len(scenes.FAMILIES))
         self.assertEqual(len(self.names("house")), 5 * len(scenes.GROUPS))
         self.assertEqual(self.names("tripod_thin_2"), ["tripod_thin_2"])
+        self.assertEqual(self.names("random_thin_101*"), [f"random_thin_101_mu{mu}" for mu in scenes.RANDOM_MU_M])
+        self.assertEqual(len(self.names("random")), 900)
         self.assertEqual(self.names("noise_*_curved_1, uniform_house_3"), ["uniform_house_3", "noise_1cm_curved_1", "noise_2cm_curved_1"])
 
     def test_a_word_that_names_nothing_is_an_error(self):
@@ -58,7 +60,7 @@ class Means(unittest.TestCase):
         group, = table.group_rows([row("a", iou=0.9, merged=2), row("b", iou=0.7, merged=1, valid=False, thin_kept=None)])
         self.assertAlmostEqual(group["iou"], 0.8)
         self.assertEqual((group["merged"], group["rooms"], group["valid"], group["scenes"]), (3, 8, 1, 2))
-        self.assertEqual((group["worst_iou"], group["thin_kept"]), (0.7, 1.0))
+        self.assertEqual((group["worst_iou"], group["thin_kept"], group["lost"]), (0.7, 1.0, {"labels": 0.1}))
 
     def test_a_failed_scene_counts_as_nothing_found(self):
         group, = table.group_rows([row("a"), {"name": "b", "group": "g", "kind": "office", "error": "error[N03]"}])
@@ -97,6 +99,17 @@ class Run(unittest.TestCase):
             self.assertIn("nothing differs", again.stdout)
             with open(out, encoding="utf-8") as text:
                 self.assertEqual(json.load(text), result)  # nothing ran again, so even the times are the same
+
+    def test_random_buildings_give_valid_models_of_all_their_empty_cells_at_every_level_of_detail(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = self.run_accuracy(folder, ONLY="random_house_101_* random_oblique_102_*")
+            self.assertEqual(done.returncode, 0, done.stdout)
+            with open(os.path.join(folder, "out.json"), encoding="utf-8") as text:
+                result = json.load(text)
+            self.assertEqual([group["valid"] for group in result["groups"]], [2, 2, 2])
+            with open(os.path.join(folder, "random_house_101", "evaluate", "scores.json"), encoding="utf-8") as text:
+                scores = json.load(text)
+            self.assertAlmostEqual(scores["mesh"]["volume_m3"], scores["explanation"]["empty_m3"], delta=1e-6)
 
     def test_wrong_words_and_files_are_usage_errors(self):
         with tempfile.TemporaryDirectory() as folder:

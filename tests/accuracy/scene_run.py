@@ -7,6 +7,7 @@ import subprocess
 # Stages whose processor time counts: all that the model needs.
 STAGES = ("ingest", "slice", "detect_lines", "accept_lines", "partition", "weigh_faces", "raycast", "graphcut", "refine_lines",
           "final_partition", "final_weigh_faces", "final_raycast", "final_graphcut", "extract")
+VOLUME_TOLERANCE = 1e-6  # relative: rounding of coordinates, far below any cell
 OUTER = ("MAKEFLAGS", "MFLAGS", "MAKELEVEL", "SCAN", "WORK", "CONFIG", "JOBS", "UP", "UNIT", "STATIONS", "TRUTH", "QUIET")
 
 
@@ -68,12 +69,24 @@ def stations_file(scene, truth_json, work):
     return path
 
 
-def evaluate(build, work, truth, truth_json):
+def config_file(scene, work):
+    """CONFIG of the pipeline: the parameters that the scene wants to differ, or none."""
+    if "mu_m" not in scene:
+        return ""
+    path = os.path.join(work, "parameters.yaml")
+    write_if_changed(path, f"graphcut:\n  mu_m: {scene['mu_m']}\n")
+    return path
+
+
+def evaluate(build, scene, work, truth, truth_json):
     program, model = os.path.join(build, "bin", "evaluate"), os.path.join(work, "model.ply")
     scores, stamp = os.path.join(work, "evaluate", "scores.json"), os.path.join(work, "evaluate", "scores.stamp")
-    key = "\n".join(map(identity, (program, model, truth, truth_json)))
+    cells = [os.path.join(work, "90_final", name + ".h5") for name in ("cells", "labels", "data_terms")]
+    key = "\n".join(map(identity, (program, model, truth, truth_json, *cells)))
     if not is_fresh(stamp, key, [scores]):
-        run([program, "-q", "--threads", "1", "--work", work, "--truth", truth, "--truth-json", truth_json])
+        coarse = ["--set", "sample_spacing_m=0.1", "--set", "column_spacing_m=0.1"] if "mu_m" in scene else []
+        run([program, "-q", "--threads", "1", "--work", work, "--truth", truth, "--truth-json", truth_json, *coarse,
+             "--cells", cells[0], "--labels", cells[1], "--terms", cells[2]])
         write_if_changed(stamp, key)
     return read_json(scores)
 
@@ -94,19 +107,29 @@ def row_of(scores, truth):
             "missed_scanned": sum(name in scanned for name in lost) if rooms else len(scanned),
             "merged": rooms.get("merged", 0), "thin_kept": thin.get("walls_kept"), "walls": scores["walls_within_1deg_2cm"],
             "horizontals": scores["horizontals_within_1deg_2cm"],
-            "hausdorff_pct": scores["distance"]["symmetric"]["hausdorff_pct"], "valid": mesh["valid"]}
+            "hausdorff_pct": scores["distance"]["symmetric"]["hausdorff_pct"], **explained(scores, mesh, volume)}
+
+
+def explained(scores, mesh, volume):
+    """The bound of the cells, the causes of what is wrong as shares of the truth, and whether the mesh encloses just its empty cells."""
+    explanation = scores["explanation"]
+    if not explanation:
+        return {"bound": None, "lost": None, "extra": None, "valid": False}
+    equal = abs(mesh["volume_m3"] - explanation["empty_m3"]) <= VOLUME_TOLERANCE * explanation["empty_m3"]
+    shares = {kind: {cause: m3 / volume["truth_m3"] for cause, m3 in explanation[kind + "_m3"].items()} for kind in ("lost", "extra")}
+    return {"bound": explanation["bound_iou"], **shares, "valid": mesh["valid"] and equal}
 
 
 def run_scene(source, build, scene, root):
     """Makes what is not up to date, scores it, and returns the scene's row; `error` in it says why there are no figures."""
     row = {"name": scene["name"], "group": scene["group"], "kind": scene["kind"]}
-    work = os.path.join(root, scene["name"])
+    work = os.path.join(root, scene.get("work", scene["name"]))
     os.makedirs(work, exist_ok=True)
     try:
         scan, truth, truth_json = make_scan(build, scene, work)
         run(["make", "--no-print-directory", "-C", source, "extract"], SCAN=scan, WORK=work, BUILD=build, JOBS="1", QUIET="1",
-            STATIONS=stations_file(scene, truth_json, work))
-        row.update(row_of(evaluate(build, work, truth, truth_json), read_json(truth_json)))
+            STATIONS=stations_file(scene, truth_json, work), CONFIG=config_file(scene, work))
+        row.update(row_of(evaluate(build, scene, work, truth, truth_json), read_json(truth_json)))
         row["cpu_s"] = round(cpu_seconds(work), 3)
     except Failed as failure:
         row["error"] = str(failure)

@@ -2,12 +2,12 @@
 """Means of groups, the table of `make accuracy`, and what changed since an earlier one."""
 
 # key, head, width, decimals; counts are summed over a group, shares averaged.
-SHARES = (("iou", "IoU", 7, 4), ("recall", "recall", 7, 4), ("precision", "precis.", 7, 4))
+SHARES = (("iou", "IoU", 7, 4), ("bound", "bound", 7, 4), ("recall", "recall", 7, 4), ("precision", "precis.", 7, 4))
 COUNTS = ("rooms", "found", "merged", "missed", "missed_scanned")
 MORE_SHARES = (("thin_kept", "thin", 6, 3), ("walls", "walls", 6, 3), ("horizontals", "horiz.", 6, 3), ("hausdorff_pct", "Hausd.%", 8, 3))
 AVERAGED = [column[0] for column in SHARES + MORE_SHARES] + ["cpu_s"]
 # A scene that gave no model counts as this, so that it cannot vanish from the means.
-OF_FAILED = {"iou": 0.0, "recall": 0.0, "precision": 0.0, "thin_kept": 0.0, "walls": 0.0, "horizontals": 0.0}
+OF_FAILED = {"iou": 0.0, "bound": None, "recall": 0.0, "precision": 0.0, "thin_kept": 0.0, "walls": 0.0, "horizontals": 0.0}
 
 
 def mean(values):
@@ -26,6 +26,9 @@ def group_rows(rows):
         summary.update({key: sum(row.get(key, 0) for row in members) for key in COUNTS})
         summary["valid"] = sum(bool(row.get("valid")) for row in members)
         summary["worst_iou"] = min(row["iou"] for row in complete)
+        for kind in ("lost", "extra"):
+            known = [row[kind] for row in members if row.get(kind)]
+            summary[kind] = {cause: mean([shares[cause] for shares in known]) for cause in known[0]} if known else None
         groups.append(summary)
     return groups
 
@@ -51,11 +54,27 @@ def head(width):
     return " ".join(names + [f"{'valid':>6}", f"{'cpu s':>6}"])
 
 
+def shown(row):
+    """Of the many random buildings only those that fail have a row."""
+    return not row["group"].startswith("random") or not row.get("valid")
+
+
 def table(rows, groups):
     width = max(len(row["name"]) for row in rows + groups)
     rule = "-" * len(head(width))
-    return "\n".join([head(width), rule] + [line(row, width) for row in rows] + [rule, "means (rooms: sums)"] +
-                     [line(group, width) for group in groups])
+    lines = [head(width), rule] + [line(row, width) for row in rows if shown(row)] + [rule, "means (rooms: sums)"]
+    lines += [line(group, width) for group in groups]
+    causes = [group for group in groups if group["lost"]]
+    if causes:
+        names = list(causes[0]["lost"])
+        lines += ["", "wrong because of (lost + extra, % of the truth's volume)",
+                  " ".join([" " * width] + [f"{name:>16}" for name in names])]
+        lines += [" ".join([f"{group['name']:<{width}}"] + [cause_cell(group, name) for name in names]) for group in causes]
+    return "\n".join(lines)
+
+
+def cause_cell(group, name):
+    return f"{100 * group['lost'][name]:>7.3f} +{100 * group['extra'][name]:>7.3f}"
 
 
 def changes(rows, groups, base):

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/evaluate/explain.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <numeric>
+
+#include "stages/evaluate/evaluate.h"
+#include "tests/unit/mesh/shapes.h"
+
+namespace roomcut {
+namespace {
+
+using test::append;
+using test::box;
+
+using Values = std::vector<double>;
+
+/// A complex of boxes: every inner value is a wall line or a level; the line at x = 3 is called "x3.000000".
+CellComplex grid(const Values& xs, const Values& ys, const Values& zs) {
+  CellComplex complex;
+  complex.levels = zs;
+  const auto nx = static_cast<std::int32_t>(xs.size()) - 1;
+  const auto ny = static_cast<std::int32_t>(ys.size()) - 1;
+  for (const double y : ys) {
+    for (const double x : xs) complex.vertices.emplace_back(x, y);
+  }
+  const auto face = [&](std::int32_t x, std::int32_t y) {
+    return x < 0 || y < 0 || x >= nx || y >= ny ? -1 : y * nx + x;
+  };
+  const auto vertex = [&](std::int32_t x, std::int32_t y) { return y * (nx + 1) + x; };
+  const auto line = [&](const char* axis, double at, double theta, bool inner) {
+    if (!inner) return -1;
+    const std::string id = axis + std::to_string(at);
+    for (std::size_t i = 0; i < complex.lines.size(); ++i) {
+      if (complex.lines[i].wall_id == id) return static_cast<std::int32_t>(i);
+    }
+    complex.lines.push_back({id, {theta, at}, -10, 10, {}});
+    return static_cast<std::int32_t>(complex.lines.size()) - 1;
+  };
+  std::vector<std::int32_t> upright(static_cast<std::size_t>((nx + 1) * ny));
+  std::vector<std::int32_t> level(static_cast<std::size_t>(nx * (ny + 1)));
+  for (std::int32_t y = 0; y < ny; ++y) {
+    for (std::int32_t x = 0; x <= nx; ++x) {
+      upright[static_cast<std::size_t>(y * (nx + 1) + x)] = static_cast<std::int32_t>(complex.edges.size());
+      complex.edges.push_back({vertex(x, y), vertex(x, y + 1), face(x - 1, y), face(x, y),
+                               line("x", xs[static_cast<std::size_t>(x)], 0, x > 0 && x < nx)});
+    }
+  }
+  for (std::int32_t y = 0; y <= ny; ++y) {
+    for (std::int32_t x = 0; x < nx; ++x) {
+      level[static_cast<std::size_t>(y * nx + x)] = static_cast<std::int32_t>(complex.edges.size());
+      complex.edges.push_back(
+          {vertex(x, y), vertex(x + 1, y), face(x, y), face(x, y - 1),
+           line("y", ys[static_cast<std::size_t>(y)], std::numbers::pi / 2, y > 0 && y < ny)});
+    }
+  }
+  complex.face_offset = {0};
+  for (std::int32_t y = 0; y < ny; ++y) {
+    for (std::int32_t x = 0; x < nx; ++x) {
+      for (const std::int32_t v : {vertex(x, y), vertex(x + 1, y), vertex(x + 1, y + 1), vertex(x, y + 1)}) {
+        complex.face_vertex.push_back(v);
+      }
+      for (const std::int32_t e : {level[static_cast<std::size_t>(y * nx + x)],
+                                   upright[static_cast<std::size_t>(y * (nx + 1) + x + 1)],
+                                   level[static_cast<std::size_t>((y + 1) * nx + x)],
+                                   upright[static_cast<std::size_t>(y * (nx + 1) + x)]}) {
+        complex.face_edge.push_back(e);
+      }
+      complex.face_offset.push_back(static_cast<std::int64_t>(complex.face_vertex.size()));
+    }
+  }
+  return complex;
+}
+
+/// Cells whose middle lies in one of the boxes are empty.
+LabelledCells labelled(const CellComplex& complex, const std::vector<std::array<Vec3, 2>>& empty) {
+  LabelledCells cells{complex, std::vector<std::uint8_t>(complex.cells(), 0), std::nullopt};
+  for (std::size_t cell = 0; cell < complex.cells(); ++cell) {
+    const std::size_t layer = cell / complex.faces();
+    const Vec2 middle = complex.centroid(cell % complex.faces());
+    const Vec3 p(middle.x(), middle.y(), 0.5 * (complex.levels[layer] + complex.levels[layer + 1]));
+    for (const auto& [lo, hi] : empty) {
+      if ((p.array() > lo.array()).all() && (p.array() < hi.array()).all()) cells.label[cell] = 1;
+    }
+  }
+  return cells;
+}
+
+Explanation explained(const TriangleMesh& model, const TriangleMesh& truth, const LabelledCells& cells,
+                      const std::vector<DescribedRoom>& rooms = {}) {
+  EXPECT_EQ(find_violation(cells.complex), "");
+  EvaluateParams params;
+  params.sample_spacing_m = 0.05;
+  params.column_spacing_m = 0.02;
+  return *evaluate(model, truth, rooms, params, &cells).explanation;
+}
+
+double total(const std::array<double, kCauses>& m3) {
+  return std::accumulate(m3.begin(), m3.end(), 0.0);
+}
+double of(const std::array<double, kCauses>& m3, Cause cause) {
+  return m3[static_cast<std::size_t>(cause)];
+}
+
+const TriangleMesh kRoom = box({1, 1, 0}, {4, 3, 2.5});  // 15 m3
+const std::array<Vec3, 2> kRoomBox = {Vec3(1, 1, 0), Vec3(4, 3, 2.5)};
+const Values kX = {0, 1, 4, 5}, kY = {0, 1, 3, 4}, kZ = {-0.5, 0, 2.5, 3};
+
+TEST(Explain, NothingIsWrongWhenCellsAndLabelsAreTheTruths) {
+  const Explanation e = explained(kRoom, kRoom, labelled(grid(kX, kY, kZ), {kRoomBox}));
+  EXPECT_NEAR(e.bound_iou, 1, 1e-9);
+  EXPECT_NEAR(e.labels_iou, 1, 1e-9);
+  EXPECT_NEAR(e.empty_m3, 15, 1e-9);
+  EXPECT_NEAR(total(e.lost_m3) + total(e.extra_m3), 0, 1e-9);
+  ASSERT_EQ(e.rooms.size(), 1U);
+  EXPECT_EQ(e.rooms[0].own.cells, 1U);
+  EXPECT_NEAR(e.rooms[0].own.volume_m3, 15, 1e-9);
+  EXPECT_NEAR(e.rooms[0].own_m3, e.rooms[0].volume_m3, 1e-9);
+  EXPECT_TRUE(e.lost_walls.empty());
+}
+
+TEST(Explain, ARoomLabelledSolidIsLostToLabelsAndItsEvidenceIsSummed) {
+  const CellComplex complex = grid(kX, kY, kZ);
+  LabelledCells cells = labelled(complex, {{Vec3(0, 0, -1), Vec3(1, 1, 0)}});  // a cell that is none: extra
+  cells.terms.emplace();
+  cells.terms->d_solid.assign(complex.cells(), 1);
+  cells.terms->d_empty.assign(complex.cells(), 4);
+  cells.terms->beta.assign(complex.cells(), 0.25F);
+  cells.terms->observed.assign(complex.cells(), 0.5F);
+  const Explanation e = explained(box({0, 0, -0.5}, {1, 1, 0}), kRoom, cells);
+  EXPECT_NEAR(e.bound_iou, 1, 1e-9);
+  EXPECT_NEAR(e.labels_iou, 0, 1e-9);
+  EXPECT_NEAR(of(e.lost_m3, Cause::kLabels), 15, 0.15);
+  EXPECT_NEAR(of(e.extra_m3, Cause::kLabels), 0.5, 0.02);
+  EXPECT_NEAR(total(e.lost_m3) + total(e.extra_m3), 15.5, 0.15);
+  EXPECT_EQ(e.rooms[0].own.empty_m3, 0);
+  EXPECT_DOUBLE_EQ(e.rooms[0].own.evidence_m3, -3);
+  EXPECT_DOUBLE_EQ(e.rooms[0].own.beta, 0.25);
+  EXPECT_DOUBLE_EQ(e.rooms[0].own.observed, 0.5);
+}
+
+TEST(Explain, ALineFiveCentimetresOffIsMisplaced) {
+  const auto cells = labelled(grid({0, 1.05, 4, 5}, kY, kZ), {{Vec3(1, 1, 0), Vec3(4, 3, 2.5)}});
+  const Explanation e = explained(box({1.05, 1, 0}, {4, 3, 2.5}), kRoom, cells);
+  EXPECT_NEAR(of(e.lost_m3, Cause::kLinesMisplaced), 0.05 * 2 * 2.5, 0.02);
+  EXPECT_NEAR(total(e.lost_m3), 0.25, 0.02);
+  EXPECT_NEAR(total(e.extra_m3), 0, 1e-9);
+  EXPECT_NEAR(e.bound_iou, 14.75 / 15, 2e-3);
+}
+
+TEST(Explain, AWallWithoutALineIsMissing) {
+  const auto cells = labelled(grid({0, 4, 5}, kY, kZ), {{Vec3(0, 1, 0), Vec3(4, 3, 2.5)}});
+  const Explanation e = explained(box({0, 1, 0}, {4, 3, 2.5}), kRoom, cells);
+  EXPECT_NEAR(of(e.extra_m3, Cause::kLinesMissing), 1 * 2 * 2.5, 0.1);
+  EXPECT_NEAR(total(e.extra_m3), 5, 0.1);
+  EXPECT_NEAR(total(e.lost_m3), 0, 1e-9);
+  EXPECT_NEAR(e.bound_iou, 15.0 / 20, 5e-3);
+  EXPECT_NEAR(e.labels_iou, e.bound_iou, 1e-12);
+}
+
+TEST(Explain, ACeilingWithoutALevelIsMissingAndOneNearByIsMisplaced) {
+  const auto without = labelled(grid(kX, kY, {0, 3}), {{Vec3(1, 1, 0), Vec3(4, 3, 3)}});
+  const Explanation missing = explained(box({1, 1, 0}, {4, 3, 3}), kRoom, without);
+  EXPECT_NEAR(of(missing.extra_m3, Cause::kLevelsMissing), 3 * 2 * 0.5, 0.03);
+  EXPECT_NEAR(total(missing.extra_m3), 3, 0.03);
+  const auto beside = labelled(grid(kX, kY, {0, 2.45, 3}), {{Vec3(1, 1, 0), Vec3(4, 3, 2.45)}});
+  const Explanation misplaced = explained(box({1, 1, 0}, {4, 3, 2.45}), kRoom, beside);
+  EXPECT_NEAR(of(misplaced.lost_m3, Cause::kLevelsMisplaced), 3 * 2 * 0.05, 0.01);
+  EXPECT_NEAR(total(misplaced.lost_m3) + total(misplaced.extra_m3), 0.3, 0.01);
+}
+
+TEST(Explain, WhatLiesBeyondTheLevelsIsOutside) {
+  const auto cells = labelled(grid(kX, kY, {0, 2}), {{Vec3(1, 1, 0), Vec3(4, 3, 2)}});
+  const Explanation e = explained(box({1, 1, 0}, {4, 3, 2}), kRoom, cells);
+  EXPECT_NEAR(of(e.lost_m3, Cause::kOutside), 3, 0.03);
+  EXPECT_NEAR(total(e.lost_m3), 3, 0.03);
+  EXPECT_NEAR(e.bound_iou, 0.8, 2e-3);
+}
+
+TEST(Explain, ASlopedCeilingIsNamed) {
+  TriangleMesh wedge = kRoom;
+  for (Vec3& p : wedge.vertices) {
+    if (p.x() == 4 && p.z() == 2.5) p.z() = 0.5;
+  }
+  const Explanation e = explained(kRoom, wedge, labelled(grid(kX, kY, kZ), {kRoomBox}));
+  EXPECT_NEAR(of(e.extra_m3, Cause::kSloped), 6, 0.06);
+  EXPECT_NEAR(total(e.extra_m3), 6, 0.06);
+}
+
+TEST(Explain, WhatIsInNoRoomIsAnOpening) {
+  const DescribedRoom room{"room", {{1, 1}, {3.8, 1}, {3.8, 3}, {1, 3}}, 0, 2.5, {2, 2, 1}};
+  const auto cells = labelled(grid({0, 1, 3.8, 5}, kY, kZ), {{Vec3(1, 1, 0), Vec3(3.8, 3, 2.5)}});
+  const Explanation e = explained(box({1, 1, 0}, {3.8, 3, 2.5}), kRoom, cells, {room});
+  EXPECT_NEAR(of(e.lost_m3, Cause::kOpenings), 0.2 * 2 * 2.5, 0.03);
+  EXPECT_NEAR(total(e.lost_m3), 1, 0.03);
+}
+
+TEST(Explain, ALostWallSaysWhetherItHadCells) {
+  TriangleMesh truth = box({1, 1, 0}, {3, 3, 2.5});
+  append(truth, box({3.1, 1, 0}, {4, 3, 2.5}));
+  const auto with = labelled(grid({0, 1, 3, 3.1, 4, 5}, kY, kZ), {kRoomBox});
+  const Explanation e = explained(kRoom, truth, with);
+  ASSERT_EQ(e.lost_walls.size(), 1U);
+  EXPECT_EQ(e.lost_walls[0].a, 0);
+  EXPECT_EQ(e.lost_walls[0].b, 1);
+  EXPECT_NEAR(e.lost_walls[0].area_m2, 2 * 2 * 2.5, 0.1);  // both faces count
+  EXPECT_EQ(e.lost_walls[0].no_cell_m2, 0);
+  EXPECT_FALSE(e.lost_walls[0].slab);
+  EXPECT_EQ(e.lost_walls[0].cells.cells, 1U);
+  EXPECT_NEAR(e.lost_walls[0].cells.empty_m3, 0.1 * 2 * 2.5, 1e-9);
+  EXPECT_EQ(e.lost_walls[0].wall_ids, (std::vector<std::string>{"x3.000000", "x3.100000"}));
+  EXPECT_NEAR(of(e.extra_m3, Cause::kLabels), 0.5, 0.03);
+  const Explanation none = explained(kRoom, truth, labelled(grid(kX, kY, kZ), {kRoomBox}));
+  ASSERT_EQ(none.lost_walls.size(), 1U);
+  EXPECT_NEAR(none.lost_walls[0].no_cell_m2, none.lost_walls[0].area_m2, 1e-9);
+  EXPECT_TRUE(none.lost_walls[0].wall_ids.empty());
+  EXPECT_NEAR(of(none.extra_m3, Cause::kLinesMissing) + of(none.extra_m3, Cause::kLinesMisplaced), 0.5, 0.03);
+}
+
+TEST(Explain, FollowsTheFrame) {
+  const Vec3 by(100, -50, 7);
+  LabelledCells cells = labelled(grid(kX, kY, kZ), {kRoomBox});
+  cells.complex = moved(cells.complex, by);
+  const TriangleMesh truth = box(Vec3(1, 1, 0) + by, Vec3(4, 3, 2.5) + by);
+  EXPECT_NEAR(explained(truth, truth, cells).labels_iou, 1, 1e-9);
+}
+
+}  // namespace
+}  // namespace roomcut
