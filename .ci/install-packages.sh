@@ -13,12 +13,14 @@ if ! command -v apt-get > /dev/null 2>&1; then
   echo
   exit 0
 fi
+# A package counts as there, too, when another one of the list provides it: nodejs from elsewhere than Debian brings npm along.
 # shellcheck disable=SC2086
-installed=" $(dpkg-query -W -f '${db:Status-Status} ${Package} ' $wanted 2> /dev/null || true)"
+installed=" $(dpkg-query -W -f '${db:Status-Status} ${Package}, ${Provides}\n' $wanted 2> /dev/null |
+  sed -n 's/^installed //p' | tr ',\n' '  ') "
 missing=
 for package in $wanted; do
   case $installed in
-    *" installed $package "*) ;;
+    *" $package "*) ;;
     *) missing="$missing $package" ;;
   esac
 done

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/artefact/atomic_file.h"
 #include "common/cli/run_stage.h"
-#include "stages/report/page.h"
 #include "stages/report/report_io.h"
 
 int main(int argc, char** argv) {
@@ -9,13 +8,15 @@ int main(int argc, char** argv) {
   ReportParams params;
   StageInfo info;
   info.name = "report";
+  info.revision = 2;
   info.summary = "Draws every stage whose artefacts are there, and a page that shows them all.";
   info.inputs = report_inputs();
   info.outputs = {{"report", "report.html", "the page; the pictures go to the folder pictures/ beside it"}};
   info.options = {{"only",
                    "all",
                    "draw one stage only; the page is then left as it is",
-                   {"all", "ingest", "slice", "detect_lines", "graphcut", "refine_lines", "extract"}}};
+                   {"all", "ingest", "slice", "detect_lines", "graphcut", "refine_lines", "extract"}},
+                  {"template", "", "the page without data; empty: report_page.html beside this program", {}}};
   return run_stage(argc, argv, info, report_table(params), [&](StageRun& run) {
     const std::string& only = run.option("only");
     const auto page = run.output("report");
@@ -25,9 +26,9 @@ int main(int argc, char** argv) {
     }
     run.count("pictures", static_cast<double>(pictures.size()));
     if (only == "all") {
-      const auto tables =
-          run.has_input("summary") ? summary_tables(run.input("summary")) : std::vector<ReportTable>{};
-      write_text_file(page, make_page("roomcut report", tables, pictures));
+      const std::string html = make_page(run, params);
+      write_text_file(page, html);
+      run.count("page", static_cast<double>(html.size()) / 1e6, "MB");
     }
   });
 }

@@ -1,46 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages/report/report_io.h"
 
-#include <cstdio>
 #include <set>
 
-#include "common/artefact/json.h"
 #include "common/cells/cells_io.h"
-#include "common/cloud/cloud_io.h"
 #include "common/mesh/mesh_io.h"
 #include "common/slices/slices_io.h"
 #include "common/wall_lines/wall_lines_io.h"
+#include "stages/report/thinned_points.h"
 
 namespace roomcut {
 
 namespace {
-
-/// Every n-th point, so that at most about `most` remain, tile by tile; of a scan with a model only the
-/// points around it, since ghosts far outside would make everything else small.
-std::vector<Vec3> thinned_points(const StageRun& run, std::uint64_t most) {
-  const CloudReader cloud(run.input("cloud"));
-  const CloudHeader& header = cloud.header();
-  Bounds3 shown{header.bbox_min, header.bbox_max};
-  if (run.has_input("model")) {
-    const Vec3 origin(header.frame.origin[0], header.frame.origin[1], header.frame.origin[2]);
-    shown = bounds(read_mesh(run.input("model")));
-    shown.lo -= origin + Vec3::Constant(1);
-    shown.hi -= origin - Vec3::Constant(1);
-  }
-  const std::uint64_t step = header.points / std::max<std::uint64_t>(most, 1) + 1;
-  std::vector<Vec3> points;
-  CloudTile tile;
-  for (std::size_t t = 0; t < cloud.tiles(); ++t) {
-    cloud.read_tile(t, tile);
-    for (std::size_t i = 0; i < tile.size(); i += step) {
-      const Vec3 p(tile.x[i], tile.y[i], tile.z[i]);
-      if ((p.array() >= shown.lo.array()).all() && (p.array() <= shown.hi.array()).all()) {
-        points.push_back(p);
-      }
-    }
-  }
-  return points;
-}
 
 std::vector<WallLine> lines_of(const StageRun& run, const std::string& input) {
   return run.has_input(input) ? read_wall_lines(run.input(input)).content.lines : std::vector<WallLine>{};
@@ -82,42 +53,21 @@ void draw_models(const StageRun& run, int width_px, std::vector<Picture>& pictur
   }
 }
 
-std::string text_of(const Json& value) {
-  if (value.is_number_float()) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3f", value.get<double>());
-    return text;
-  }
-  return value.is_string() ? value.get<std::string>() : value.dump();
-}
-
-/// A list of equal objects as a table, columns by name; members that are lists or objects are left out.
-ReportTable table_of(const std::string& title, const Json& list) {
-  ReportTable table{title, {}};
-  for (const Json& item : list) {
-    std::vector<std::string> head, row;
-    for (const auto& [key, value] : item.items()) {
-      if (!value.is_structured()) {
-        head.push_back(key);
-        row.push_back(text_of(value));
-      }
-    }
-    if (table.rows.empty()) {
-      table.rows.push_back(head);
-    }
-    table.rows.push_back(row);
-  }
-  return table;
-}
-
 }  // namespace
 
 std::vector<StageFile> report_inputs() {
   return {{"cloud", "10_ingest/cloud.h5", "the cloud", true},
           {"slices", "20_slice/slices.h5", "the slices", true},
+          {"detected", "30_detect_lines/wall_lines.geojson", "the detected wall lines", true},
+          {"hough", "30_detect_lines/hough.h5", "what the detection saw", true},
           {"lines", "40_accept_lines/wall_lines.geojson", "the accepted wall lines", true},
           {"refined", "80_refine_lines/wall_lines.geojson", "the refined wall lines", true},
+          {"first_cells", "50_partition/cells.h5", "the cells of the first pass", true},
+          {"first_weights", "55_weigh_faces/weights.h5", "the weights of their faces", true},
+          {"first_terms", "60_raycast/data_terms.h5", "their data terms", true},
+          {"first_labels", "70_graphcut/labels.h5", "their labels", true},
           {"cells", "90_final/cells.h5", "the cells", true},
+          {"weights", "90_final/weights.h5", "the weights of their faces", true},
           {"terms", "90_final/data_terms.h5", "their data terms", true},
           {"labels", "90_final/labels.h5", "their labels", true},
           {"model", "model.ply", "the model", true},
@@ -131,8 +81,11 @@ std::vector<Picture> draw_pictures(const StageRun& run, const ReportParams& para
     draw_models(run, params.picture_px, pictures);
   }
   if (wanted("ingest") && run.has_input("cloud")) {
-    pictures.push_back(
-        draw_cloud(thinned_points(run, static_cast<std::uint64_t>(params.cloud_points)), params.picture_px));
+    std::vector<Vec3> points;
+    for (const ThinPoint& point : thinned_points(run, static_cast<std::uint64_t>(params.cloud_points))) {
+      points.push_back(point.at);
+    }
+    pictures.push_back(draw_cloud(points, params.picture_px));
   }
   if ((wanted("slice") || wanted("detect_lines")) && run.has_input("slices")) {
     draw_slices(run, wanted("slice"), wanted("detect_lines"), pictures);
@@ -144,26 +97,6 @@ std::vector<Picture> draw_pictures(const StageRun& run, const ReportParams& para
     pictures.push_back(draw_refinement(lines_of(run, "lines"), lines_of(run, "refined")));
   }
   return pictures;
-}
-
-std::vector<ReportTable> summary_tables(const std::filesystem::path& summary) {
-  const Json json = read_json_artefact(summary, artefacts::kSummary);
-  std::vector<ReportTable> tables;
-  for (const char* list : {"storeys", "rooms"}) {
-    if (json.contains(list) && json[list].is_array() && !json[list].empty()) {
-      tables.push_back(table_of(list, json[list]));
-    }
-  }
-  for (const char* group : {"totals", "counts", "checks"}) {
-    if (json.contains(group) && json[group].is_object()) {
-      ReportTable table{group, {{"what", "value"}}};
-      for (const auto& [key, value] : json[group].items()) {
-        table.rows.push_back({key, text_of(value)});
-      }
-      tables.push_back(table);
-    }
-  }
-  return tables;
 }
 
 }  // namespace roomcut

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <filesystem>
+#include <string>
 #include <vector>
 
 #include "common/cli/run_stage.h"
-#include "stages/report/page.h"
 #include "stages/report/params.h"
 #include "stages/report/pictures.h"
 
@@ -18,7 +17,9 @@ std::vector<StageFile> report_inputs();
 /// or is "all". Errors: those of the artefacts' readers.
 std::vector<Picture> draw_pictures(const StageRun& run, const ReportParams& params, const std::string& only);
 
-/// Storeys, rooms and checks from summary.json.
-std::vector<ReportTable> summary_tables(const std::filesystem::path& summary);
+/// The whole page: the template (option `template`) filled with the data of this run. Without a template (the
+/// build could not fetch the front end) a page that says so, after a warning. Errors: those of the artefacts'
+/// readers.
+std::string make_page(StageRun& run, const ReportParams& params);
 
 }  // namespace roomcut

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Everything the page knows of one run. What the run had not made yet is null.
+
+import { loadBlock } from "./blocks.js";
+import { Complex } from "./complex.js";
+import { findStoreys } from "./storeys.js";
+
+/**
+ * @typedef {object} Run
+ * @property {object} facts      block `run`: levels, histogram, noise, density, frame, summary
+ * @property {object} lines      block `lines`: detected, lines (accepted), refined; GeoJSON
+ * @property {object[]} stages   block `logs`
+ * @property {?object} model     block `model`
+ * @property {?object} cloud     block `cloud`
+ * @property {?Complex} complex  block `cells`
+ * @property {?object} storeys   storey and room of each cell
+ * @property {number[]} box      low and high corner of what is shown, local metres
+ */
+
+/** @returns {Promise<Run>} */
+export async function loadRun() {
+  const [facts, lines, logs, model, cloud, cells] = await Promise.all(
+    ["run", "lines", "logs", "model", "cloud", "cells"].map(loadBlock),
+  );
+  const complex = cells ? new Complex(cells) : null;
+  return {
+    facts: facts ?? {},
+    lines: lines ?? {},
+    stages: logs?.stages ?? [],
+    model,
+    cloud,
+    complex,
+    storeys: complex ? findStoreys(complex, facts?.summary) : null,
+    box: model ? boxOf(model.vertices) : (facts?.bbox ?? [0, 0, 0, 1, 1, 1]),
+  };
+}
+
+function boxOf(vertices) {
+  const box = [Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity];
+  vertices.forEach((value, i) => {
+    box[i % 3] = Math.min(box[i % 3], value);
+    box[3 + (i % 3)] = Math.max(box[3 + (i % 3)], value);
+  });
+  return box;
+}
+
+/** Wall slices: {index, low, high, name, layer of the complex} from below. */
+export function slicesOf(run) {
+  const levels = run.facts.levels ?? [];
+  return levels.slice(0, -1).map((level, index) => {
+    const [low, high] = [level.z, levels[index + 1].z];
+    return {
+      index,
+      low,
+      high,
+      name: `${index}: ${low.toFixed(2)} … ${high.toFixed(2)} m`,
+      layer: run.complex ? run.complex.layerBetween(low, high) : -1,
+    };
+  });
+}
+
+/** The cells of a slice's occupancy grid with their points' centroids, or null. */
+export async function loadSlice(run, index) {
+  const block = await loadBlock(`slice-${index}`);
+  if (block && !block.x) {
+    const count = block.ix.length;
+    block.x = new Float32Array(count);
+    block.y = new Float32Array(count);
+    for (let i = 0; i < count; ++i) {
+      block.x[i] = (block.ix[i] + block.inside[2 * i] / 255) * run.facts.tau_m;
+      block.y[i] = (block.iy[i] + block.inside[2 * i + 1] / 255) * run.facts.tau_m;
+    }
+  }
+  return block;
+}
+
+/** Wall lines of a GeoJSON as {id, a, b, properties}. */
+export function wallLines(geojson) {
+  return (geojson?.features ?? []).map(({ properties, geometry }) => ({
+    id: properties.wall_id,
+    a: geometry.coordinates[0],
+    b: geometry.coordinates[1],
+    properties,
+  }));
+}

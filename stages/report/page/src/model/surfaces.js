@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Surfaces to be drawn, as triangle soups with facts per triangle. Normals point out of the rooms, as in model.ply.
+
+export const kFloor = 0;
+export const kCeiling = 1;
+export const kWall = 2;
+
+/**
+ * @typedef {object} Surface
+ * @property {Float32Array} positions  9 per triangle
+ * @property {Float32Array} lines      6 per segment of its outlines
+ * @property {Int16Array} storey       per triangle
+ * @property {Int16Array} lineStorey   per segment
+ * @property {Uint8Array} kind         per triangle
+ * @property {Int32Array} part         per triangle: region of the model, or index into `faces`
+ */
+
+/** The model itself (block `model`): outlines where two regions meet. */
+export function modelSurface(block) {
+  const { vertices, triangles, region } = block;
+  const count = triangles.length / 3;
+  const positions = new Float32Array(9 * count);
+  const sides = new Map();
+  for (let t = 0; t < count; ++t) {
+    for (let c = 0; c < 3; ++c) {
+      const v = triangles[3 * t + c];
+      positions.set(vertices.subarray(3 * v, 3 * v + 3), 9 * t + 3 * c);
+      const next = triangles[3 * t + ((c + 1) % 3)];
+      const key = v < next ? `${v} ${next}` : `${next} ${v}`;
+      const side = sides.get(key) ?? { v, next, parts: new Set(), storey: block.storey[t] };
+      side.parts.add(region[t]);
+      sides.set(key, side);
+    }
+  }
+  const outlines = [...sides.values()].filter((side) => side.parts.size > 1);
+  const lines = new Float32Array(6 * outlines.length);
+  outlines.forEach(({ v, next }, i) => {
+    lines.set(vertices.subarray(3 * v, 3 * v + 3), 6 * i);
+    lines.set(vertices.subarray(3 * next, 3 * next + 3), 6 * i + 3);
+  });
+  return {
+    positions,
+    lines,
+    storey: block.storey,
+    lineStorey: Int16Array.from(outlines, (side) => side.storey),
+    kind: block.kind,
+    part: region,
+  };
+}
+
+/**
+ * The faces of the complex between empty and solid: the same surface, face by face, each with its evidence.
+ * `faces[part]`: {kind, index, cell, beyond} with the empty cell and the solid one (-1: outside).
+ */
+export function faceSurface(complex, storeyOfCell) {
+  const build = new Builder(storeyOfCell);
+  for (let k = 0; k < complex.layers; ++k) {
+    const [low, high] = [complex.levels[k], complex.levels[k + 1]];
+    for (let e = 0; e < complex.edges; ++e) {
+      const { a, b, left, right } = complex.edge(e);
+      const isLeft = complex.isEmpty(left, k);
+      if (isLeft === complex.isEmpty(right, k)) {
+        continue;
+      }
+      const quad = [[...a, low], [...b, low], [...b, high], [...a, high]];
+      const [inside, outside] = isLeft ? [left, right] : [right, left];
+      build.add(isLeft ? quad : quad.reverse(), {
+        kind: kWall,
+        index: k * complex.edges + e,
+        cell: complex.cell(inside, k),
+        beyond: outside < 0 ? -1 : complex.cell(outside, k),
+      });
+    }
+  }
+  for (let l = 0; l <= complex.layers; ++l) {
+    for (let f = 0; f < complex.faces; ++f) {
+      const above = complex.isEmpty(f, l);
+      if (above === complex.isEmpty(f, l - 1)) {
+        continue;
+      }
+      const corners = complex.corners(f).map(([x, y]) => [x, y, complex.levels[l]]);
+      const [inside, outside] = above ? [l, l - 1] : [l - 1, l];
+      build.add(above ? corners.reverse() : corners, {
+        kind: above ? kFloor : kCeiling,
+        index: l * complex.faces + f,
+        cell: complex.cell(f, inside),
+        beyond: outside < 0 || outside >= complex.layers ? -1 : complex.cell(f, outside),
+      });
+    }
+  }
+  return build.surface();
+}
+
+class Builder {
+  constructor(storeyOfCell) {
+    this.storeyOfCell = storeyOfCell;
+    Object.assign(this, { positions: [], lines: [], storey: [], lineStorey: [], kind: [], part: [], faces: [] });
+  }
+
+  /** A convex face, counter-clockwise seen from its normal's tip. */
+  add(corners, face) {
+    const storey = this.storeyOfCell[face.cell];
+    for (let i = 1; i + 1 < corners.length; ++i) {
+      this.positions.push(...corners[0], ...corners[i], ...corners[i + 1]);
+      this.storey.push(storey);
+      this.kind.push(face.kind);
+      this.part.push(this.faces.length);
+    }
+    corners.forEach((corner, i) => {
+      this.lines.push(...corner, ...corners[(i + 1) % corners.length]);
+      this.lineStorey.push(storey);
+    });
+    this.faces.push(face);
+  }
+
+  surface() {
+    return {
+      positions: Float32Array.from(this.positions),
+      lines: Float32Array.from(this.lines),
+      storey: Int16Array.from(this.storey),
+      lineStorey: Int16Array.from(this.lineStorey),
+      kind: Uint8Array.from(this.kind),
+      part: Int32Array.from(this.part),
+      faces: this.faces,
+    };
+  }
+}

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The part "Plan": one slice from above, with its tools, and why what was clicked came out so.
+
+import { byId, make } from "../dom.js";
+import { loadSlice, slicesOf, wallLines } from "../data/run.js";
+import { drawLegend } from "../model/colourings.js";
+import { selection } from "../model/panel.js";
+import { cellFills } from "./fills.js";
+import { nearestLine, nearestWallFace } from "./pick.js";
+import { rasterOf } from "./rasters.js";
+import { PlanView } from "./view.js";
+import { whyCell, whyLine, whyWallFace } from "./why.js";
+
+const kPickPixels = 6;
+
+export class PlanPanel {
+  constructor(run) {
+    this.run = run;
+    this.slices = slicesOf(run);
+    this.why = byId("plan-why");
+    if (this.slices.length === 0) {
+      byId("plan-canvas").append(make("p", { class: "quiet", text: "There are no slices yet: make run goes on." }));
+      return;
+    }
+    this.fills = run.complex ? cellFills(run.complex) : [{ name: "none", legend: {}, colourOf: () => null }];
+    this.state = {
+      slice: this.slices[0],
+      block: null,
+      evidence: "occupancy",
+      raster: null,
+      fill: this.fills[Math.min(1, this.fills.length - 1)],
+      show: { lines: true, refined: false, points: false },
+      lines: wallLines(run.lines.lines ?? run.lines.detected),
+      refined: wallLines(run.lines.refined),
+      selected: null,
+    };
+    this.view = new PlanView(byId("plan-canvas"), run, this.state);
+    this.legend = make("div", { class: "legend" });
+    byId("plan-canvas").append(this.legend);
+    this.buildTools();
+    this.listen();
+    this.select(null);
+    this.choose(this.bestSlice());
+  }
+
+  /** The highest slice of the lowest storey: the first that is worth looking at. */
+  bestSlice() {
+    const { complex } = this.run;
+    const filled = (slice) => {
+      let volume = 0;
+      for (let f = 0; complex && slice.layer >= 0 && f < complex.faces; ++f) {
+        volume += complex.isEmpty(f, slice.layer) ? complex.areas[f] * (slice.high - slice.low) : 0;
+      }
+      return volume;
+    };
+    return this.slices.reduce((best, slice) => (filled(slice) > filled(best) ? slice : best), this.slices[0]);
+  }
+
+  buildTools() {
+    const check = (name, key) =>
+      make(
+        "label",
+        {},
+        make("input", {
+          type: "checkbox",
+          id: `plan-${key}`,
+          ...(this.state.show[key] ? { checked: true } : {}),
+          onchange: (event) => {
+            this.state.show[key] = event.target.checked;
+            this.view.redraw();
+          },
+        }),
+        name,
+      );
+    const evidence = [["occupancy", "occupancy"], ["walls and clutter", "walls"], ["none", null]];
+    this.sliceSelect = selection("plan-slice", this.slices.map(({ name }) => name), (i) => this.choose(this.slices[i]));
+    byId("plan-tools").append(
+      make(
+        "span",
+        { class: "group" },
+        make("label", {}, "Slice", this.sliceSelect),
+        make("button", { type: "button", text: "▲", "aria-label": "Slice above", id: "plan-up", onclick: () => this.step(1) }),
+        make("button", { type: "button", text: "▼", "aria-label": "Slice below", id: "plan-down", onclick: () => this.step(-1) }),
+      ),
+      make("label", {}, "Evidence", selection("plan-evidence", evidence.map(([name]) => name), (i) => {
+        this.state.evidence = evidence[i][1];
+        this.updateRaster();
+      })),
+      make("label", {}, "Cells", this.fillSelect()),
+      check("wall lines", "lines"),
+      check("refined lines", "refined"),
+      check("points", "points"),
+      make("button", { type: "button", text: "Fit", onclick: () => this.view.viewport.fit(this.view.viewport.box) }),
+    );
+  }
+
+  fillSelect() {
+    const select = selection("plan-fill", this.fills.map(({ name }) => name), (i) => {
+      this.state.fill = this.fills[i];
+      this.updateLegend();
+      this.view.redraw();
+    });
+    select.selectedIndex = this.fills.indexOf(this.state.fill);
+    return select;
+  }
+
+  async choose(slice) {
+    this.state.slice = slice;
+    this.sliceSelect.selectedIndex = slice.index;
+    this.state.block = await loadSlice(this.run, slice.index);
+    this.updateRaster();
+  }
+
+  step(by) {
+    const next = this.slices[this.state.slice.index + by];
+    return next ? this.choose(next) : Promise.resolve();
+  }
+
+  updateRaster() {
+    const { evidence, block } = this.state;
+    this.state.raster = evidence && block ? rasterOf(block, evidence) : null;
+    this.updateLegend();
+    this.view.redraw();
+  }
+
+  updateLegend() {
+    const swatches = [...(this.state.fill.legend.swatches ?? [])];
+    if (this.state.evidence === "walls") {
+      swatches.push(["#0072b2", "piece of a wall"], ["#e69f00", "clutter"]);
+    } else if (this.state.evidence === "occupancy") {
+      swatches.push(["#1e1e1e", "covered over all of the height"], ["#e1e1e1", "over little of it"]);
+    }
+    drawLegend(this.legend, { ...this.state.fill.legend, swatches });
+  }
+
+  listen() {
+    const { viewport } = this.view;
+    const { canvas } = viewport;
+    canvas.setAttribute("aria-label", "Plan. Arrow keys move, plus and minus zoom, page up and down change the slice.");
+    let last = null;
+    let moved = 0;
+    canvas.addEventListener("pointerdown", (event) => {
+      if (this.tool?.down(event)) {
+        return;
+      }
+      last = [event.clientX, event.clientY];
+      moved = 0;
+      canvas.setPointerCapture(event.pointerId);
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      if (this.tool?.move(event) || !last) {
+        return;
+      }
+      const [dx, dy] = [event.clientX - last[0], event.clientY - last[1]];
+      moved += Math.hypot(dx, dy);
+      last = [event.clientX, event.clientY];
+      viewport.pan(dx, dy);
+    });
+    canvas.addEventListener("pointerup", (event) => {
+      if (this.tool?.up(event)) {
+        return;
+      }
+      if (last && moved < 4) {
+        this.pick(viewport.toPlan(viewport.pixelsOf(event)));
+      }
+      last = null;
+    });
+    canvas.addEventListener("keydown", (event) => this.key(event));
+  }
+
+  key(event) {
+    if (this.tool?.key(event)) {
+      event.preventDefault();
+      return;
+    }
+    const { viewport } = this.view;
+    const keys = {
+      ArrowLeft: () => viewport.pan(60, 0),
+      ArrowRight: () => viewport.pan(-60, 0),
+      ArrowUp: () => viewport.pan(0, 60),
+      ArrowDown: () => viewport.pan(0, -60),
+      "+": () => viewport.zoom(1.25),
+      "=": () => viewport.zoom(1.25),
+      "-": () => viewport.zoom(0.8),
+      PageUp: () => this.step(1),
+      PageDown: () => this.step(-1),
+    };
+    if (keys[event.key] && !event.ctrlKey && !event.metaKey) {
+      event.preventDefault();
+      keys[event.key]();
+    }
+  }
+
+  pick(point) {
+    const limit = kPickPixels / this.view.viewport.scale;
+    const { complex } = this.run;
+    const { slice, show, lines } = this.state;
+    const line = show.lines ? nearestLine(lines, point, limit) : null;
+    if (line) {
+      this.select({ line: line.id });
+      return;
+    }
+    if (!complex || slice.layer < 0) {
+      this.select(null);
+      return;
+    }
+    const edge = nearestWallFace(complex, slice.layer, point, limit);
+    if (edge >= 0) {
+      this.select({ edge, layer: slice.layer });
+      return;
+    }
+    const face = complex.faceAt(...point);
+    this.select(face < 0 ? null : { cell: complex.cell(face, slice.layer) });
+  }
+
+  /** Shows why: `what` is {line}, {edge, layer}, {cell} or null. */
+  select(what) {
+    this.state.selected = what;
+    this.view.redraw();
+    this.why.replaceChildren(...this.words(what));
+  }
+
+  words(what) {
+    const { complex } = this.run;
+    if (what?.line !== undefined) {
+      const line = this.state.lines.find(({ id }) => id === what.line);
+      const known = this.run.lines.refined ? (this.state.refined.find(({ id }) => id === what.line) ?? null) : undefined;
+      return whyLine(line, known);
+    }
+    if (what?.edge !== undefined) {
+      return whyWallFace(complex, what.edge, what.layer);
+    }
+    if (what?.cell !== undefined) {
+      return whyCell(complex, what.cell, roomOf(this.run, what.cell));
+    }
+    return [make("p", { class: "quiet", text: "Click a cell, a wall or a line: here it says why it came out so." })];
+  }
+}
+
+/** The room of the summary that a cell belongs to, or null. */
+export function roomOf(run, cell) {
+  const room = run.storeys?.room[cell] ?? -1;
+  const rooms = run.facts.summary?.rooms ?? [];
+  return room >= 0 && rooms.length === run.storeys.rooms.length ? rooms[room] : null;
+}

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Why a cell came out empty or solid, in words and numbers.
+
+import { boundaryCost, facesOf, flipCost, lengthMu } from "../data/energy.js";
+import { make, number, short } from "../dom.js";
+
+const kCosts = new Set(["beta", "d_empty", "d_solid"]);
+const kPlace = { wall: "wall face", below: "face below", above: "face above" };
+
+/** A table of rows; cells that are numbers stand to the right. */
+function table(head, rows) {
+  const cell = (tag) => (value) =>
+    make(tag, typeof value === "number" || (typeof value === "string" && /^[-+–\d]/.test(value)) ? { class: "number" } : {}, String(value));
+  return make("table", {}, make("tr", {}, ...head.map(cell("th"))), ...rows.map((row) => make("tr", {}, ...row.map(cell("td")))));
+}
+
+/** @returns {Element[]} what is known of a cell; `room` is its entry of the summary, or null */
+export function whyCell(complex, cell, room) {
+  const { block } = complex;
+  const layer = Math.floor(cell / complex.faces);
+  const empty = block.label[cell] === 1;
+  const beta = block.evidence_beta?.[cell];
+  const flip = flipCost(complex, cell);
+  const parts = [
+    make("h3", { text: `Cell ${cell}: ${empty ? "empty" : "solid"}` }),
+    make("p", {
+      class: "quiet",
+      text: `${number(complex.areas[cell % complex.faces])} m² of the plan, ${number(complex.levels[layer])} … ${number(complex.levels[layer + 1])} m, ${number(complex.volume(cell))} m³, ${block.cell_points[cell]} points inside.`,
+    }),
+    make("p", {
+      text: `The evidence gives ${number(100 * beta, 1)} % for empty. Flipping this cell alone would cost ${number(block.margin[cell], 3)} m³ of energy.`,
+    }),
+  ];
+  if (block.unobserved[cell] === 1) {
+    parts.push(make("p", { class: "warn", text: "Unobserved: too little evidence. It has a label, but the label is not to be trusted." }));
+  }
+  if (block.margin[cell] < 0) {
+    parts.push(make("p", { class: "warn", text: "The margin is negative: the repair to a closed surface overruled the cut here." }));
+  }
+  if (room) {
+    parts.push(make("p", { text: `Part of room ${room.room} on storey ${room.storey} (${number(room.area_m2)} m²).` }));
+  }
+  return [...parts, ...evidenceOf(block, cell), ...energyOf(complex, cell, flip), ...beyondOf(complex, cell)];
+}
+
+function evidenceOf(block, cell) {
+  const rows = block.evidence
+    .filter(({ name }) => !kCosts.has(name))
+    .map(({ name, unit, description, weight }) =>
+      make(
+        "tr",
+        {},
+        make("td", {}, name, make("small", { text: description })),
+        make("td", { class: "number", text: short(block[`evidence_${name}`][cell]) + (unit === "1" ? "" : ` ${unit.replace("^2", "²").replace("^3", "³")}`) }),
+        weight === undefined ? null : make("td", { class: "number", text: `× ${short(weight)}` }),
+      ),
+    );
+  return [make("h3", { text: "Evidence" }), make("table", { class: "evidence" }, ...rows)];
+}
+
+function energyOf(complex, cell, flip) {
+  const { block } = complex;
+  const rows = [
+    ["as empty", number(block.evidence_d_empty[cell], 3)],
+    ["as solid", number(block.evidence_d_solid[cell], 3)],
+    ["flip: data term", signed(flip.data)],
+    ["flip: surface term", signed(flip.boundary)],
+    ["flip: together", signed(flip.total)],
+  ];
+  return [make("h3", { text: "Energy [m³]" }), table(["", "m³"], rows)];
+}
+
+function beyondOf(complex, cell) {
+  const { block } = complex;
+  const mu = lengthMu(block);
+  const rows = facesOf(complex, cell).map((face) => [
+    face.wall ?? kPlace[face.kind],
+    number(face.area),
+    number(face.omega),
+    face.points,
+    face.beyond < 0 ? "outside" : block.label[face.beyond] === 1 ? "empty" : "solid",
+    number(boundaryCost(face, mu), 3),
+  ]);
+  return [
+    make("h3", { text: "Its faces" }),
+    table(["", "m²", "ω", "points", "beyond", "cost m³"], rows),
+    make("p", { class: "quiet", text: `ω is the share of a face that points cover. A face costs μ (1 − ω) area, μ = ${short(mu)} m, when the two sides have different labels.` }),
+  ];
+}
+
+const signed = (value) => (value >= 0 ? "+" : "−") + number(Math.abs(value), 3);
+
+/** @returns {Element[]} what is known of a wall face of the plan */
+export function whyWallFace(complex, edge, layer) {
+  const { block } = complex;
+  const { a, b, left, right } = complex.edge(edge);
+  const index = layer * complex.edges + edge;
+  const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
+  const omega = block.wall_omega[index];
+  const [isLeft, isRight] = [complex.isEmpty(left, layer), complex.isEmpty(right, layer)];
+  const wall = complex.wallId(edge);
+  return [
+    make("h3", { text: `Wall face${wall ? ` on ${wall}` : ""}` }),
+    make("p", {
+      text: `${number(length)} m long, ${number(length * complex.height(layer))} m². ${isLeft === isRight ? (isLeft ? "Open: both sides are empty." : "Inside: both sides are solid.") : "A wall of the model."}`,
+    }),
+    table(["", "value"], [
+      ["ω, share covered by points", number(omega, 3)],
+      ["points", block.wall_points[index]],
+      ["speaks for empty on the left", number(block.wall_left[index], 3)],
+      ["speaks for empty on the right", number(block.wall_right[index], 3)],
+      ["cost of a wall here", `${number(boundaryCost({ omega, area: length * complex.height(layer) }, lengthMu(block)), 3)} m³`],
+    ]),
+  ];
+}
+
+/** @returns {Element[]} what is known of a wall line */
+export function whyLine(line, refined) {
+  const { properties: p } = line;
+  const length = Math.hypot(line.b[0] - line.a[0], line.b[1] - line.a[1]);
+  const rows = [
+    ["length", `${number(length, 3)} m`],
+    ["covered by points", `${number(p.support_m, 2)} m`],
+    ["rms of the points", p.rms_m ? `${number(1e3 * p.rms_m, 1)} mm` : "–"],
+    ["offset known to", p.sigma_offset_m ? `± ${number(1e3 * p.sigma_offset_m, 2)} mm` : "–"],
+    ["angle known to", p.sigma_angle_deg ? `± ${number(p.sigma_angle_deg, 4)}°` : "–"],
+    ["source", p.source],
+    ["wall slices", p.levels ? p.levels.join(", ") : "all"],
+    ["locked", p.locked ? "yes" : "no"],
+  ];
+  const parts = [make("h3", { text: `Wall line ${line.id}` }), table(["", ""], rows)];
+  if (p.note) {
+    parts.push(make("p", { text: p.note }));
+  }
+  if (refined) {
+    parts.push(make("p", { class: "quiet", text: `After refinement: offset ± ${number(1e3 * refined.properties.sigma_offset_m, 2)} mm, rms ${number(1e3 * refined.properties.rms_m, 1)} mm.` }));
+  } else if (refined === null) {
+    parts.push(make("p", { class: "quiet", text: "It carries no wall of the first cut, so refinement dropped it." }));
+  }
+  return parts;
+}

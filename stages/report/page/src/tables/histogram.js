@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The vertical histogram with its peaks and slices (the paper's Figure 1), as SVG, and the table of levels.
+
+import { byId, make, number } from "../dom.js";
+
+const kNamespace = "http://www.w3.org/2000/svg";
+const kHeight = 620;
+const kBars = 520;
+const kLeft = 60;
+const kTop = 16;
+
+function svg(tag, attributes, text) {
+  const element = document.createElementNS(kNamespace, tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    element.setAttribute(name, value);
+  }
+  if (text !== undefined) {
+    element.textContent = text;
+  }
+  return element;
+}
+
+export function showHistogram(run) {
+  const host = byId("histogram");
+  const { levels, histogram } = run.facts;
+  if (!levels) {
+    host.append(make("p", { class: "quiet", text: "There are no slices yet: make run goes on." }));
+    return;
+  }
+  host.append(
+    make("p", {
+      text: "Area of level surface per height. Orange marks: the peaks, heights of floors and ceilings. Blue: the structure slice around each. Yellow: the wall slices between.",
+    }),
+    picture(levels, histogram, run.facts.histogram_area),
+    levelTable(levels, run.facts.frame?.origin?.[2] ?? 0),
+  );
+}
+
+function picture(levels, { z0, bin_m: bin }, bins) {
+  const top = z0 + bin * bins.length;
+  const most = Math.max(1e-9, ...bins);
+  const y = (z) => kTop + ((top - z) / (top - z0)) * kHeight;
+  const x = (area) => kLeft + (area / most) * kBars;
+  const drawing = svg("svg", { width: 860, height: kHeight + 60, viewBox: `0 0 860 ${kHeight + 60}`, role: "img", "aria-label": "Vertical histogram" });
+  const box = (low, high, fill, opacity, right = kLeft + kBars) =>
+    drawing.append(svg("rect", { x: kLeft, y: y(high), width: right - kLeft, height: Math.max(0.5, y(low) - y(high)), fill, "fill-opacity": opacity }));
+  levels.slice(0, -1).forEach((level, i) => box(level.hi, levels[i + 1].lo, "#f0e442", 0.25));
+  levels.forEach((level) => box(level.lo, level.hi, "#56b4e9", 0.5));
+  const path = bins.reduce((d, area, i) => (area > 0 ? `${d}M${kLeft} ${y(z0 + (i + 1) * bin)}H${x(area)}V${y(z0 + i * bin)}H${kLeft}Z` : d), "");
+  drawing.append(svg("path", { d: path, fill: "#282828", stroke: "#282828", "stroke-width": 0.7 }));
+  let last = Infinity;
+  for (const level of levels) {
+    drawing.append(svg("line", { x1: kLeft + kBars - 40, x2: kLeft + kBars, y1: y(level.z), y2: y(level.z), stroke: "#d55e00", "stroke-width": 2 }));
+    const at = Math.min(y(level.z) + 4, last - 13); // labels of close peaks do not overlap
+    last = at;
+    drawing.append(svg("text", { x: kLeft + kBars + 8, y: at, fill: "#b34700" }, `${number(level.z, 3)} m  ${level.cap ? "cap" : `${number(level.area_m2, 0)} m²`}`));
+  }
+  drawing.append(svg("text", { x: kLeft, y: kTop + kHeight + 20 }, `0`), svg("text", { x: kLeft + kBars - 40, y: kTop + kHeight + 20 }, `${number(most, 0)} m² per ${number(1e3 * bin, 0)} mm`));
+  for (let z = Math.ceil(z0); z <= top; z += top - z0 > 30 ? 5 : 1) {
+    drawing.append(svg("text", { x: kLeft - 8, y: y(z) + 4, "text-anchor": "end" }, `${z} m`), svg("line", { x1: kLeft - 5, x2: kLeft, y1: y(z), y2: y(z), stroke: "#5b6770" }));
+  }
+  return drawing;
+}
+
+function levelTable(levels, origin) {
+  const head = ["Level", "Height in the scan [m]", "Structure slice [m]", "Level surface [m²]", "Largest piece [m²]", "Wall slice above"];
+  const rows = levels.map((level, i) => [
+    String(i),
+    number(level.z + origin, 3),
+    `${number(level.lo + origin, 3)} … ${number(level.hi + origin, 3)}`,
+    level.cap ? "cap: none seen" : number(level.area_m2, 1),
+    number(level.component_m2, 1),
+    i + 1 < levels.length ? `${number(levels[i + 1].z - level.z)} m` : "",
+  ]);
+  return make(
+    "table",
+    {},
+    make("tr", {}, ...head.map((text) => make("th", { text, class: "number" }))),
+    ...rows.map((row) => make("tr", {}, ...row.map((text) => make("td", { text, class: "number" })))),
+  );
+}

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include "common/cloud/cloud_io.h"
+#include "common/mesh/mesh_io.h"
+#include "stages/report/page_blocks.h"
+#include "stages/report/page_points.h"
+#include "stages/report/thinned_points.h"
+
+namespace roomcut {
+
+namespace {
+
+/// The model in local metres: model.ply has the frame's origin added.
+TriangleMesh local_model(const StageRun& run, const Frame& frame) {
+  TriangleMesh model = read_mesh(run.input("model"));
+  for (Vec3& vertex : model.vertices) {
+    vertex -= Vec3(frame.origin[0], frame.origin[1], frame.origin[2]);
+  }
+  return model;
+}
+
+PageBlock model_block(const TriangleMesh& model, const std::vector<ThinPoint>& points) {
+  PageBlockBuilder block("model");
+  std::vector<float> vertices;
+  for (const Vec3& vertex : model.vertices) {
+    for (int axis = 0; axis < 3; ++axis) {
+      vertices.push_back(static_cast<float>(vertex[axis]));
+    }
+  }
+  std::vector<std::int32_t> triangles;
+  for (const Triangle& triangle : model.triangles) {
+    triangles.insert(triangles.end(), triangle.begin(), triangle.end());
+  }
+  block.add("vertices", vertices);
+  block.add("triangles", triangles);
+  block.add("kind", model.kind);
+  block.add("storey", model.storey);
+  block.add("region", model.region);
+  if (!points.empty() && !model.region.empty()) {
+    const auto regions =
+        static_cast<std::size_t>(*std::max_element(model.region.begin(), model.region.end()) + 1);
+    block.add("region_distance", region_distances(points, model, regions));
+  }
+  return block.finish();
+}
+
+PageBlock cloud_block(const CloudHeader& header, const std::vector<ThinPoint>& points,
+                      const TriangleMesh* model) {
+  PageBlockBuilder block("cloud");
+  const PagePoints packed = pack_points(points, model);
+  block.facts["low"] = {packed.low.x(), packed.low.y(), packed.low.z()};
+  block.facts["step"] = {packed.step.x(), packed.step.y(), packed.step.z()};
+  block.facts["points"] = header.points;
+  block.facts["distance_step_m"] = kDistanceStep_m;
+  block.facts["stations"] = Json::array();
+  for (const Vec3& station : header.stations) {
+    block.facts["stations"].push_back({station.x(), station.y(), station.z()});
+  }
+  block.add("xyz", packed.xyz);
+  block.add("surface", packed.surface);
+  block.add("distance", packed.distance);
+  return block.finish();
+}
+
+}  // namespace
+
+void add_model_blocks(const StageRun& run, const ReportParams& params, std::vector<PageBlock>& blocks) {
+  if (!run.has_input("cloud")) {
+    return;  // without it the frame is not known either
+  }
+  const CloudHeader header = CloudReader(run.input("cloud")).header();
+  const auto points = thinned_points(run, static_cast<std::uint64_t>(params.cloud_points));
+  if (run.has_input("model")) {
+    const TriangleMesh model = local_model(run, header.frame);
+    blocks.push_back(model_block(model, points));
+    blocks.push_back(cloud_block(header, points, &model));
+  } else {
+    blocks.push_back(cloud_block(header, points, nullptr));
+  }
+}
+
+}  // namespace roomcut

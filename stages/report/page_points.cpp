@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/report/page_points.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace roomcut {
+
+namespace {
+
+constexpr int kFar = 255;
+constexpr double kUnits = 65535;
+
+std::vector<MeshTree::Hit> nearest_triangles(const std::vector<ThinPoint>& points,
+                                             const TriangleMesh& model) {
+  const MeshTree tree(model);
+  std::vector<MeshTree::Hit> hits(points.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 1024), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      hits[i] = tree.nearest(points[i].at, kFar * kDistanceStep_m);
+    }
+  });
+  return hits;
+}
+
+}  // namespace
+
+PagePoints pack_points(const std::vector<ThinPoint>& points, const TriangleMesh* model) {
+  PagePoints packed;
+  if (points.empty()) {
+    return packed;
+  }
+  Vec3 high = points.front().at;
+  packed.low = high;
+  for (const ThinPoint& point : points) {
+    packed.low = packed.low.cwiseMin(point.at);
+    high = high.cwiseMax(point.at);
+  }
+  packed.step = (high - packed.low).cwiseMax(1e-6) / kUnits;
+  packed.xyz.reserve(3 * points.size());
+  packed.surface.reserve(points.size());
+  for (const ThinPoint& point : points) {
+    const Vec3 units = (point.at - packed.low).cwiseQuotient(packed.step);
+    for (int axis = 0; axis < 3; ++axis) {
+      packed.xyz.push_back(static_cast<std::uint16_t>(std::clamp(std::round(units[axis]), 0.0, kUnits)));
+    }
+    packed.surface.push_back(point.surface);
+  }
+  if (model != nullptr && !model->triangles.empty()) {
+    for (const MeshTree::Hit& hit : nearest_triangles(points, *model)) {
+      packed.distance.push_back(static_cast<std::uint8_t>(
+          std::min<double>(kFar, std::round(std::min(hit.distance, 1.0) / kDistanceStep_m))));
+    }
+  }
+  return packed;
+}
+
+std::vector<float> region_distances(const std::vector<ThinPoint>& points, const TriangleMesh& model,
+                                    std::size_t regions) {
+  std::vector<double> sum(regions, 0);
+  std::vector<std::size_t> count(regions, 0);
+  for (const MeshTree::Hit& hit : nearest_triangles(points, model)) {
+    if (hit.triangle >= 0 && hit.distance < kFar * kDistanceStep_m) {
+      const auto region = static_cast<std::size_t>(model.region[static_cast<std::size_t>(hit.triangle)]);
+      sum[region] += hit.distance * hit.distance;
+      ++count[region];
+    }
+  }
+  std::vector<float> rms(regions, std::numeric_limits<float>::quiet_NaN());
+  for (std::size_t r = 0; r < regions; ++r) {
+    if (count[r] > 0) {
+      rms[r] = static_cast<float>(std::sqrt(sum[r] / static_cast<double>(count[r])));
+    }
+  }
+  return rms;
+}
+
+}  // namespace roomcut

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+#include <filesystem>
+
+#include "common/artefact/atomic_file.h"
+#include "common/artefact/h5.h"
+#include "common/slices/slices_io.h"
+#include "stages/report/page_blocks.h"
+
+namespace roomcut {
+
+namespace {
+
+/// In the order of the pipeline; the names of the logs.
+constexpr std::array kStages = {"ingest",         "slice",           "detect_lines",      "accept_lines",
+                                "partition",      "weigh_faces",     "raycast",           "graphcut",
+                                "refine_lines",   "final_partition", "final_weigh_faces", "final_raycast",
+                                "final_graphcut", "extract"};
+/// What a log says of a run apart from where and when it was.
+constexpr std::array kLogMembers = {"stage",   "revision", "version", "wall_s", "cpu_s",   "peak_memory_mb",
+                                    "threads", "params",   "chosen",  "counts", "warnings"};
+
+Json parsed(const std::filesystem::path& path) {
+  return Json::parse(read_text_file(path), nullptr, false);
+}
+
+Json levels_of(const Slices& slices) {
+  Json levels = Json::array();
+  for (const Level& level : slices.levels) {
+    levels.push_back({{"z", level.z},
+                      {"lo", level.lo},
+                      {"hi", level.hi},
+                      {"area_m2", level.area_m2},
+                      {"component_m2", level.component_m2},
+                      {"cap", level.cap}});
+  }
+  return levels;
+}
+
+void add_slices(const StageRun& run, PageBlockBuilder& block) {
+  const Slices slices = read_slices(run.input("slices"));
+  const auto& histogram = slices.histogram;
+  block.facts["levels"] = levels_of(slices);
+  block.facts["histogram"] = {{"z0", histogram.z0}, {"bin_m", histogram.bin_m}};
+  block.facts["noise_m"] = slices.noise_m;
+  block.facts["density"] = slices.density;
+  block.facts["tau_m"] = slices.tau_m;
+  block.facts["bbox"] = {slices.bbox_min.x(), slices.bbox_min.y(), slices.bbox_min.z(),
+                         slices.bbox_max.x(), slices.bbox_max.y(), slices.bbox_max.z()};
+  block.facts["frame"] = to_json(slices.frame);
+  block.add("histogram_area", std::vector<float>(histogram.area_m2.begin(), histogram.area_m2.end()));
+}
+
+}  // namespace
+
+void add_run_blocks(const StageRun& run, std::vector<PageBlock>& blocks) {
+  PageBlockBuilder facts("run");
+  if (run.has_input("slices")) {
+    add_slices(run, facts);
+  }
+  if (run.has_input("summary")) {
+    facts.facts["summary"] = read_json_artefact(run.input("summary"), artefacts::kSummary);
+  }
+  blocks.push_back(facts.finish());
+
+  PageBlockBuilder lines("lines");
+  for (const char* input : {"detected", "lines", "refined"}) {
+    if (run.has_input(input)) {
+      lines.facts[input] = parsed(run.input(input));
+    }
+  }
+  blocks.push_back(lines.finish());
+}
+
+void add_log_block(const StageRun& run, std::vector<PageBlock>& blocks) {
+  PageBlockBuilder logs("logs");
+  logs.facts["stages"] = Json::array();
+  const std::filesystem::path folder = run.output("report").parent_path() / "logs";
+  for (const char* stage : kStages) {
+    const std::filesystem::path file = folder / (std::string(stage) + ".json");
+    const Json log = std::filesystem::exists(file) ? parsed(file) : Json();
+    if (!log.is_object()) {
+      continue;
+    }
+    Json kept = {{"run", stage}};
+    for (const char* member : kLogMembers) {
+      if (log.contains(member)) {
+        kept[member] = log[member];
+      }
+    }
+    logs.facts["stages"].push_back(kept);
+  }
+  blocks.push_back(logs.finish());
+}
+
+}  // namespace roomcut
