@@ -16,6 +16,7 @@ struct Level {
   double area_m2 = 0;       ///< area of horizontal surface in the band
   double component_m2 = 0;  ///< its largest connected component
   bool cap = false;         ///< not a peak: closes the building where walls go on past the last peak
+  bool step = false;        ///< not a peak: one of several that stand for a slope, as stairs would
 };
 
 /// Area of horizontal surface per height bin.

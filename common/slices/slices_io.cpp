@@ -45,6 +45,8 @@ void write_levels(H5Writer& file, const std::vector<Level>& levels) {
              "footprint of the largest connected component in the band");
   file.write("levels/cap", column<std::uint8_t>(levels, &Level::cap), "1",
              "1 = no surface was seen here, walls end");
+  file.write("levels/step", column<std::uint8_t>(levels, &Level::step), "1",
+             "1 = one of several levels that stand for a slope");
 }
 
 void write_wall_slices(H5Writer& file, const std::vector<OccupancyGrid>& grids) {
@@ -88,9 +90,10 @@ std::vector<Level> read_levels(const H5Reader& file) {
   const auto area = file.read<double>("levels/area", {n});
   const auto component = file.read<double>("levels/component", {n});
   const auto cap = file.read<std::uint8_t>("levels/cap", {n});
+  const auto step = file.read<std::uint8_t>("levels/step", {n});
   std::vector<Level> levels(n);
   for (std::size_t i = 0; i < n; ++i) {
-    levels[i] = {z[i], lo[i], hi[i], area[i], component[i], cap[i] != 0};
+    levels[i] = {z[i], lo[i], hi[i], area[i], component[i], cap[i] != 0, step[i] != 0};
     if (!std::isfinite(z[i]) || (i > 0 && z[i] <= z[i - 1])) file.damaged("levels/z", "is not ascending");
   }
   return levels;

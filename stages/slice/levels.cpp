@@ -196,6 +196,65 @@ bool only_furniture(const Candidate& candidate, const std::vector<Candidate>& al
       [&](const SurfaceComponent& surface) { return surface.area_m2 < smallest || stands_on(surface); });
 }
 
+/// The plan of all levels' surfaces.
+PlanMask footprint(const std::vector<Level>& levels, const HeightSurvey& survey,
+                   const std::vector<SurfaceCell>& cells) {
+  PlanMask plan(cells, survey.raster_m);
+  for (const SurfaceCell& cell : cells) {
+    const bool in_level = std::any_of(levels.begin(), levels.end(), [&](const Level& level) {
+      return level.lo <= cell.z && cell.z <= level.hi;
+    });
+    if (in_level) plan.add(cell);
+  }
+  return plan;
+}
+
+/// Sloped area per height bin between two heights, its sum, and that of all upright area; only over the
+/// building and where no level lies above: what looks sloped under a ceiling is edges and furniture.
+struct Slopes {
+  std::map<std::int32_t, double> by_bin;
+  double sloped_m2 = 0, upright_m2 = 0;
+};
+
+Slopes slopes_between(const std::vector<UprightBlock>& upright, const PlanMask& building,
+                      const PlanMask& ceilings, double lo, double hi) {
+  Slopes slopes;
+  for (const UprightBlock& block : upright) {
+    const double z = (block.iz + 0.5) * kUprightHeight;
+    if (z < lo || z > hi || !building.contains(block) || ceilings.contains(block)) continue;
+    slopes.upright_m2 += block.area_m2;
+    if (block.sloped_m2 <= 0) continue;
+    slopes.sloped_m2 += block.sloped_m2;
+    slopes.by_bin[block.iz] += block.sloped_m2;
+  }
+  return slopes;
+}
+
+double area_between(const VerticalHistogram& histogram, double lo, double hi) {
+  double area = 0;
+  for (std::size_t i = 0; i < histogram.area_m2.size(); ++i) {
+    const double z = histogram.z0 + (static_cast<double>(i) + 0.5) * histogram.bin_m;
+    if (lo < z && z < hi) area += histogram.area_m2[i];
+  }
+  return area;
+}
+
+/// Heights between which the bulk of the area lies, without 1 % at both ends.
+std::pair<double, double> bulk(const std::map<std::int32_t, double>& area_by_bin, double total) {
+  double sum = 0, lo = 0, hi = 0;
+  bool below = true;
+  for (const auto& [bin, area] : area_by_bin) {
+    sum += area;
+    if (below && sum > 0.01 * total) {
+      lo = bin * kUprightHeight;
+      below = false;
+    }
+    hi = (bin + 1) * kUprightHeight;
+    if (sum > 0.99 * total) break;
+  }
+  return {lo, hi};
+}
+
 /// How far area goes on beyond a level, given outwards from it per height bin [m]; 0 when it is too little to
 /// count.
 double reach_beyond(const std::map<std::int32_t, double>& beyond, double total) {
@@ -287,13 +346,7 @@ bool is_furniture(const SurfaceComponent& surface, const Level& floor, const Cel
 void add_caps(std::vector<Level>& levels, const HeightSurvey& survey, const std::vector<SurfaceCell>& cells,
               double reach_m) {
   if (levels.empty()) return;
-  PlanMask plan(cells, survey.raster_m);
-  for (const SurfaceCell& cell : cells) {
-    const bool in_level = std::any_of(levels.begin(), levels.end(), [&](const Level& level) {
-      return level.lo <= cell.z && cell.z <= level.hi;
-    });
-    if (in_level) plan.add(cell);
-  }
+  const PlanMask plan = footprint(levels, survey, cells);
   std::map<std::int32_t, double> above, below;
   double total = 0;
   for (const UprightBlock& block : survey.upright) {
@@ -315,6 +368,33 @@ void add_caps(std::vector<Level>& levels, const HeightSurvey& survey, const std:
     const double z = levels.front().z - down;
     levels.insert(levels.begin(), {z, z, z, 0, 0, true});
   }
+}
+
+void add_steps(std::vector<Level>& levels, const HeightSurvey& survey, const std::vector<SurfaceCell>& cells,
+               double step_m) {
+  constexpr double kSmallest = 15;  // m^2
+  constexpr double kShare = 0.2;    // of the upright area: edges and furniture look sloped, too
+  constexpr double kEdge = 0.15;    // m; where floors and ceilings meet walls
+  constexpr double kSteep = 2;      // times the horizontal area: a gentle vault stays flat
+  const PlanMask building = footprint(levels, survey, cells);
+  std::vector<Level> steps;
+  for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
+    const std::vector<Level> above(levels.begin() + static_cast<std::ptrdiff_t>(k) + 1, levels.end());
+    const PlanMask ceilings = footprint(above, survey, cells);
+    const Slopes slopes =
+        slopes_between(survey.upright, building, ceilings, levels[k].hi + kEdge, levels[k + 1].lo - kEdge);
+    if (slopes.sloped_m2 < std::max(kSmallest, kShare * slopes.upright_m2)) continue;
+    const auto [lo, hi] = bulk(slopes.by_bin, slopes.sloped_m2);
+    if (slopes.sloped_m2 < kSteep * area_between(survey.horizontal, lo, hi)) continue;
+    const int n = static_cast<int>(std::lround((hi - lo) / step_m));
+    for (int i = 0; i < n; ++i) {
+      const double z = lo + (i + 0.5) * (hi - lo) / n;
+      if (z < levels[k].hi + 0.5 * step_m || z > levels[k + 1].lo - 0.5 * step_m) continue;
+      steps.push_back({z, z, z, 0, 0, false, true});
+    }
+  }
+  levels.insert(levels.end(), steps.begin(), steps.end());
+  std::sort(levels.begin(), levels.end(), [](const Level& a, const Level& b) { return a.z < b.z; });
 }
 
 }  // namespace roomcut

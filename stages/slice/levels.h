@@ -47,4 +47,11 @@ bool is_furniture(const SurfaceComponent& surface, const Level& floor, const Cel
 void add_caps(std::vector<Level>& levels, const HeightSurvey& survey, const std::vector<SurfaceCell>& cells,
               double reach_m);
 
+/// Adds levels about `step_m` apart between two levels where roofs are: at least 15 m^2, and a fifth of the
+/// upright surface over the building that has no level above it, are sloped, and twice as much as lies level
+/// there. A model of level planes turns a slope into stairs. The slope's bulk, without 1 % at both ends, is cut
+/// into equal steps with a level at the middle of each, none nearer than half a step to another level.
+void add_steps(std::vector<Level>& levels, const HeightSurvey& survey, const std::vector<SurfaceCell>& cells,
+               double step_m);
+
 }  // namespace roomcut

@@ -20,6 +20,8 @@ ParameterTable parameters(SliceParams& p) {
                   "Edge of the occupancy cells of a wall slice (the paper's tau)."),
       number("cap_reach_m", p.cap_reach_m, "m", 0.05, 5.0,
              "Walls that go on farther past the last level get a cap there."),
+      number("step_m", p.step_m, "m", 0.0, 5.0,
+             "Distance of the levels that stand for a sloped roof or ramp; 0 = none."),
       number("tall_slice_m", p.tall_slice_m, "m", 0.0, 100.0,
              "Wall slices higher than this count evidence in their top part only."),
       number("evidence_share", p.evidence_share, "1", 0.05, 1.0,
@@ -32,7 +34,9 @@ void report(StageRun& run, const SliceResult& result) {
   const Slices& slices = result.slices;
   std::size_t cells = 0;
   for (const OccupancyGrid& grid : slices.wall_slices) cells += grid.size();
-  for (const Level& level : slices.levels) run.count(level.cap ? "level (cap)" : "level", level.z, "m");
+  for (const Level& level : slices.levels) {
+    run.count(level.cap ? "level (cap)" : level.step ? "level (step of a slope)" : "level", level.z, "m");
+  }
   run.count("levels", static_cast<double>(slices.levels.size()));
   run.count("surfaces too small for a level", static_cast<double>(result.rejected.size()));
   run.count("wall cells", static_cast<double>(cells));

@@ -13,6 +13,7 @@ struct SliceParams {
   std::optional<double> min_component_m2;  ///< smallest connected surface that makes a level [m^2]
   std::optional<double> tau_m;             ///< edge of the occupancy cells [m]
   double cap_reach_m = 0.2;                ///< walls that go on farther past the last level get a cap [m]
+  double step_m = 0.3;                     ///< distance of the levels that stand for a slope; 0 = none [m]
   double tall_slice_m = 1.5;               ///< higher wall slices count evidence in their top part only [m]
   double evidence_share = 0.25;            ///< that top part, as a share of the slice's height
 };

@@ -120,9 +120,11 @@ SliceResult slice_cloud(const CloudHeader& header, const TileSource& tiles, cons
   slices.levels = find_levels(survey, cells, rules, &result.rejected);
   add_caps(slices.levels, survey, cells, params.cap_reach_m);
   require_levels(survey, slices.levels, result.rejected);
+  if (params.step_m > 0) add_steps(slices.levels, survey, cells, params.step_m);
 
   slices.tau_m = choose_tau(header, params, result.choices);
-  const auto ranges = evidence_ranges(slices.levels, params.tall_slice_m, params.evidence_share);
+  const auto ranges =
+      evidence_ranges(slices.levels, params.tall_slice_m, params.evidence_share, 0.5 * slices.tau_m);
   slices.wall_slices = occupy_wall_slices(tiles, ranges, slices.tau_m);
   require_vertical(survey, slices.wall_slices);
   return result;

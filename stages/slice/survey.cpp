@@ -28,9 +28,10 @@ struct PatchSum {
 };
 
 struct AreaSum {
-  std::int64_t area = 0;
+  std::int64_t area = 0, sloped = 0;
   AreaSum& operator+=(const AreaSum& other) {
     area += other.area;
+    sloped += other.sloped;
     return *this;
   }
 };
@@ -53,7 +54,9 @@ void add_patch(CellTable<PatchSum>& table, const CloudTile& tile, std::size_t i,
 void add_upright(CellTable<AreaSum>& table, const CloudTile& tile, std::size_t i) {
   const CellKey key{floor_to_int(tile.x[i] / kUprightPlan), floor_to_int(tile.y[i] / kUprightPlan),
                     floor_to_int(tile.z[i] / kUprightHeight)};
-  table.at(key) += {to_units(tile.area[i], kAreaUnit)};
+  const std::int64_t area = to_units(tile.area[i], kAreaUnit);
+  const bool sloped = static_cast<SurfaceClass>(tile.surface[i]) == SurfaceClass::kSloped;
+  table.at(key) += {area, sloped ? area : 0};
 }
 
 VerticalHistogram histogram(double z0, double bin_m, const tbb::enumerable_thread_specific<Sums>& threads,
@@ -71,7 +74,8 @@ VerticalHistogram histogram(double z0, double bin_m, const tbb::enumerable_threa
 std::vector<UprightBlock> to_blocks(std::vector<std::vector<CellEntry<AreaSum>>> parts) {
   std::vector<UprightBlock> blocks;
   for (const auto& [key, sum] : merged(std::move(parts), by_column)) {
-    blocks.push_back({key.ix, key.iy, key.iz, static_cast<double>(sum.area) * kAreaUnit});
+    blocks.push_back({key.ix, key.iy, key.iz, static_cast<double>(sum.area) * kAreaUnit,
+                      static_cast<double>(sum.sloped) * kAreaUnit});
   }
   return blocks;
 }

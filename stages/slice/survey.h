@@ -22,6 +22,7 @@ struct UprightBlock {
   std::int32_t ix = 0, iy = 0;  ///< plan cell of kUprightPlan
   std::int32_t iz = 0;          ///< height bin of kUprightHeight
   double area_m2 = 0;
+  double sloped_m2 = 0;  ///< the sloped part of it
 };
 inline constexpr double kUprightPlan = 0.5;     // m
 inline constexpr double kUprightHeight = 0.05;  // m

@@ -7,6 +7,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <mutex>
 
 #include "stages/slice/cell_table.h"
@@ -28,6 +29,7 @@ struct EvidenceSum {
   std::int64_t area = 0;
   std::int64_t cos2 = 0, sin2 = 0;  // of twice the azimuth, which is periodic in pi
   std::uint64_t bins = 0;
+  std::uint64_t slope = 0;  // 1 = on a contour: the step goes through the whole slice
   EvidenceSum& operator+=(const EvidenceSum& other) {
     count += other.count;
     walls += other.walls;
@@ -37,6 +39,7 @@ struct EvidenceSum {
     cos2 += other.cos2;
     sin2 += other.sin2;
     bins |= other.bins;
+    slope |= other.slope;
     return *this;
   }
 };
@@ -70,10 +73,12 @@ void add_tile(const CloudTile& tile, const std::vector<EvidenceRange>& ranges, d
   static const std::array<Direction, kAzimuthSteps> kDirections = direction_table();
   for (std::size_t i = 0; i < tile.size(); ++i) {
     const auto surface = static_cast<SurfaceClass>(tile.surface[i]);
-    if (surface == SurfaceClass::kHorizontal || surface == SurfaceClass::kSloped) continue;
+    if (surface == SurfaceClass::kHorizontal) continue;
     const int slice = range_of(ranges, tile.z[i]);
     if (slice < 0) continue;
     const EvidenceRange& range = ranges[static_cast<std::size_t>(slice)];
+    const bool slope = surface == SurfaceClass::kSloped;
+    if (slope && !(std::abs(tile.z[i] - range.contour_z) < range.contour_half_m)) continue;
     const std::int32_t column = floor_to_int(tile.x[i] / tau_m);
     const std::int32_t row = floor_to_int(tile.y[i] / tau_m);
     EvidenceSum& sum = table.at({column, row, slice});
@@ -83,6 +88,7 @@ void add_tile(const CloudTile& tile, const std::vector<EvidenceRange>& ranges, d
     sum.area += to_units(tile.area[i], kAreaUnit);
     const int bin = std::min(static_cast<int>((tile.z[i] - range.lo) / range.bin_m()), range.bins - 1);
     sum.bins |= std::uint64_t{1} << static_cast<unsigned>(bin);
+    if (slope) sum.slope = 1;
     if (surface == SurfaceClass::kWall) {
       ++sum.walls;
       sum.cos2 += kDirections[tile.azimuth[i]].cos2;
@@ -95,6 +101,7 @@ void add_tile(const CloudTile& tile, const std::vector<EvidenceRange>& ranges, d
 /// sparse scan that is above 1 in one cell and 0 in the next: only their mean is right, so weights take it as
 /// it is, up to 2.
 double coverage_of(const EvidenceSum& sum, const EvidenceRange& range, double tau_m) {
+  if (sum.slope != 0) return 1;
   const double seen = static_cast<double>(std::popcount(sum.bins)) / range.bins;
   const double density = static_cast<double>(sum.count) / (static_cast<double>(sum.area) * kAreaUnit);
   const double expected = 1 - std::exp(-density * tau_m * range.bin_m());
@@ -123,18 +130,33 @@ void append_cell(const CellEntry<EvidenceSum>& entry, const EvidenceRange& range
   grid.azimuth_trust.push_back(static_cast<std::uint8_t>(std::lround(255 * trust)));
 }
 
+/// Height of the contour where stairs rise from level k to the next one, when one of them stands for a slope:
+/// half way from step to step. NaN when there is none.
+double contour_between(const std::vector<Level>& levels, std::size_t k) {
+  const Level& lower = levels[k];
+  const Level& upper = levels[k + 1];
+  if (lower.step && !upper.cap) return 0.5 * (lower.z + upper.z);
+  if (upper.step && k + 2 < levels.size()) {  // the foot of the slope
+    const double z = upper.z - 0.5 * (levels[k + 2].z - upper.z);
+    if (z > lower.hi) return z;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
 }  // namespace
 
 std::vector<EvidenceRange> evidence_ranges(const std::vector<Level>& levels, double tall_slice_m,
-                                           double evidence_share) {
+                                           double evidence_share, double contour_half_m) {
   std::vector<EvidenceRange> ranges;
   for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
-    EvidenceRange range{levels[k].hi, levels[k + 1].lo, std::max(0.0, levels[k + 1].lo - levels[k].hi), 0};
+    EvidenceRange range{levels[k].hi, levels[k + 1].lo, std::max(0.0, levels[k + 1].lo - levels[k].hi)};
     const bool seen_ceiling = !levels[k + 1].cap;
     if (range.slice_m > tall_slice_m && seen_ceiling) range.lo = range.hi - evidence_share * range.slice_m;
     if (range.slice_m > 0) {
       range.bins = std::clamp(static_cast<int>(std::lround((range.hi - range.lo) / kBinHeight)), 1, kMaxBins);
     }
+    range.contour_z = contour_between(levels, k);
+    range.contour_half_m = contour_half_m;
     ranges.push_back(range);
   }
   return ranges;

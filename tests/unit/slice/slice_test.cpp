@@ -85,6 +85,70 @@ TEST(Slice, FloorAndCeilingWithoutWallsAreErrorN02) {
   EXPECT_EQ(code_of(cloud), "N02");
 }
 
+/// A floor of 8 m x 10 m under a roof of 45 degrees whose ridge runs along x at 4.5 m height.
+SyntheticCloud gable_roof() {
+  SyntheticCloud cloud(0.004, 600);
+  cloud.horizontal({0, 0}, {8, 9}, 0.0);
+  cloud.surface(
+      {0, 0}, {8, 9}, [](const Vec2& p) { return 4.5 - std::abs(p.y() - 4.5); }, SurfaceClass::kSloped);
+  for (const double x : {0.0, 8.0}) {
+    for (int i = 0; i < 18; ++i) {
+      const double y = 0.5 * i;
+      cloud.wall({x, y}, {x, y + 0.5}, 0, 4.5 - std::abs(y + 0.25 - 4.5));
+    }
+  }
+  return cloud;
+}
+
+TEST(Slice, ARoofBecomesStepsOfThirtyCentimetres) {
+  const SyntheticCloud cloud = gable_roof();
+  const SliceResult result = slice_cloud(cloud.header(), cloud.source(), {});
+  std::size_t steps = 0;
+  for (const Level& level : result.slices.levels) steps += level.step ? 1U : 0U;
+  EXPECT_GE(steps, 12U);
+  EXPECT_LE(steps, 15U);
+  EXPECT_FALSE(result.slices.levels.front().step);
+  EXPECT_TRUE(result.slices.levels.back().cap);
+  for (std::size_t k = 1; k < result.slices.levels.size(); ++k) {
+    const double apart = result.slices.levels[k].z - result.slices.levels[k - 1].z;
+    EXPECT_GT(apart, 0.1);
+    EXPECT_LT(apart, 0.6);
+  }
+}
+
+TEST(Slice, BetweenStepsTheContourOfTheRoofIsWallEvidence) {
+  const SyntheticCloud cloud = gable_roof();
+  const Slices slices = slice_cloud(cloud.header(), cloud.source(), {}).slices;
+  for (std::size_t k = 2; k + 2 < slices.levels.size(); ++k) {
+    const double z = 0.5 * (slices.levels[k].z + slices.levels[k + 1].z);
+    const OccupancyGrid& grid = slices.wall_slices[k];
+    std::size_t on_contour = 0;
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+      const double roof = 4.5 - std::abs(static_cast<double>(grid.y[i]) - 4.5);
+      const bool inner = grid.x[i] > 0.1F && grid.x[i] < 7.9F;
+      if (!inner) continue;
+      EXPECT_NEAR(roof, z, 0.05);
+      ++on_contour;
+    }
+    EXPECT_GT(on_contour, 250U) << z;
+  }
+}
+
+TEST(Slice, StepsCanBeTurnedOff) {
+  const SyntheticCloud cloud = gable_roof();
+  SliceParams params;
+  params.step_m = 0;
+  EXPECT_EQ(slice_cloud(cloud.header(), cloud.source(), params).slices.levels.size(), 2U);
+}
+
+TEST(Slice, SlopedClutterUnderACeilingMakesNoSteps) {
+  SyntheticCloud cloud;
+  cloud.room({0, 0}, {8, 9}, 0.0, 2.6);
+  cloud.surface(
+      {1, 1}, {6, 6}, [](const Vec2& p) { return 0.5 + 0.3 * p.y(); }, SurfaceClass::kSloped);
+  EXPECT_EQ(slice_cloud(cloud.header(), cloud.source(), {}).slices.levels.size(), 2U);
+}
+
 TEST(Slice, AnyNumberOfThreadsGivesTheSameResult) {
   const SyntheticCloud cloud = two_storeys();
   std::vector<SliceResult> results;

@@ -33,15 +33,19 @@ class SyntheticCloud {
   /// Density of what is added from now on, as a function of the place before turning.
   void thin(std::function<double(const Vec2&)> share) { share_ = std::move(share); }
 
-  void horizontal(const Vec2& lo, const Vec2& hi, const std::function<double(const Vec2&)>& z) {
+  void surface(const Vec2& lo, const Vec2& hi, const std::function<double(const Vec2&)>& z,
+               SurfaceClass of_class) {
     const std::uint64_t stream = ++streams_;
     const auto n = static_cast<std::uint64_t>((hi - lo).prod() * density_);
     for (std::uint64_t i = 0; i < n; ++i) {
       const Vec2 p(lo.x() + (hi.x() - lo.x()) * unit(stream, 4 * i),
                    lo.y() + (hi.y() - lo.y()) * unit(stream, 4 * i + 1));
       if (dropped(p, stream, i)) continue;
-      add(p, z(p) + noise_ * normal(stream, 4 * i + 2), SurfaceClass::kHorizontal, 0);
+      add(p, z(p) + noise_ * normal(stream, 4 * i + 2), of_class, 0);
     }
+  }
+  void horizontal(const Vec2& lo, const Vec2& hi, const std::function<double(const Vec2&)>& z) {
+    surface(lo, hi, z, SurfaceClass::kHorizontal);
   }
   void horizontal(const Vec2& lo, const Vec2& hi, double z) {
     horizontal(lo, hi, [z](const Vec2&) { return z; });

@@ -47,8 +47,9 @@ Slices example() {
   slices.density = 480;
   slices.tau_m = 0.04;
   slices.histogram = {-0.105, 0.005, {0, 1.5, 20, 0}};
-  slices.levels = {
-      {0, -0.02, 0.02, 20, 19, false}, {2.4, 2.38, 2.42, 8, 8, false}, {2.6, 2.6, 2.6, 0, 0, true}};
+  slices.levels = {{0, -0.02, 0.02, 20, 19, false},
+                   {2.4, 2.38, 2.42, 8, 8, false, true},
+                   {2.6, 2.6, 2.6, 0, 0, true, false}};
   slices.wall_slices = {grid(5), grid(0)};
   return slices;
 }
@@ -71,6 +72,8 @@ TEST_F(SlicesIo, WhatIsWrittenIsRead) {
   EXPECT_EQ(in.levels[0].area_m2, 20);
   EXPECT_EQ(in.levels[0].component_m2, 19);
   EXPECT_TRUE(in.levels[2].cap);
+  EXPECT_TRUE(in.levels[1].step);
+  EXPECT_FALSE(in.levels[2].step);
   ASSERT_EQ(in.wall_slices.size(), 2U);
   EXPECT_EQ(in.wall_slices[0].ix, out.wall_slices[0].ix);
   EXPECT_EQ(in.wall_slices[0].iy, out.wall_slices[0].iy);
