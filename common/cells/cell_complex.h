@@ -103,6 +103,9 @@ struct DataTerms {
   std::vector<float> sky;       ///< share of the rising rays that meet nothing at all: outdoors
   std::vector<float> observed;  ///< share of rays that end on a seen face: 0 = nothing is known of the cell
   std::vector<float> beta;      ///< probability that the cell is empty, 0 … 1
+  /// Faces that must be there though no point lies on them, 0 … 1: the other side of a wall or slab that was
+  /// seen from one side only.
+  std::vector<float> wall_implied, level_implied;
   std::vector<double>
       d_empty;  ///< cost of the label empty: V (1 - beta) + what its own faces' backs add [m^3]
   std::vector<double> d_solid;  ///< cost of the label solid: V beta + what its own faces' fronts add [m^3]

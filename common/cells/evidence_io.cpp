@@ -110,6 +110,9 @@ DataTerms read_data_terms(const std::filesystem::path& path, const CellsFile& ce
   terms.sky = read_share(file, "cell/sky", count);
   terms.observed = read_share(file, "cell/observed", count);
   terms.beta = read_share(file, "cell/beta", count);
+  const Sizes sizes(cells.complex);
+  terms.wall_implied = read_share(file, "wall/implied", sizes.walls);
+  terms.level_implied = read_share(file, "level/implied", sizes.levels);
   terms.d_empty = file.read<double>("cell/d_empty", {count});
   terms.d_solid = file.read<double>("cell/d_solid", {count});
   check_range(file, "cell/d_empty", terms.d_empty, 0, 1e15);
@@ -143,6 +146,11 @@ bool write_data_terms(const std::filesystem::path& path, const DataTerms& terms,
              "cost of the label empty: volume x (1 - beta) + what its own faces' backs add");
   file.write("cell/d_solid", terms.d_solid, "m^3",
              "cost of the label solid: volume x beta + what its own faces' fronts add");
+  const Sizes sizes(cells.complex);
+  write_share(file, "wall/implied", terms.wall_implied, sizes.walls,
+              "how far the wall face is the unseen other side of a wall that was seen");
+  write_share(file, "level/implied", terms.level_implied, sizes.levels,
+              "how far the level face is the unseen other side of a slab that was seen");
   return file.commit();
 }
 

@@ -38,7 +38,9 @@ EnergyTerms energy_terms(const CellComplex& complex, const FaceWeights& weights,
   energy.level.resize(weights.level_omega.size());
   for_each_interface(complex, [&](const Interface& face) {
     const double omega = face.wall ? weights.wall_omega[face.index] : weights.level_omega[face.index];
-    (face.wall ? energy.wall : energy.level)[face.index] = quantised(mu_m * (1.0 - omega) * face.area);
+    const double implied = face.wall ? terms.wall_implied[face.index] : terms.level_implied[face.index];
+    (face.wall ? energy.wall : energy.level)[face.index] =
+        quantised(mu_m * (1.0 - omega) * (1.0 - implied) * face.area);
   });
   return energy;
 }

@@ -15,6 +15,7 @@ constexpr std::uint64_t kSeed = 2013;
 constexpr float kPermanent = 0.5F;  // paper: a face with omega above 1/2 is permanent
 constexpr double kColumnLimit =
     8.0;  // [m] looking up and down: no room is higher, and far levels are another storey's
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 constexpr double kThickness = 0.5;  // [m] of walls and slabs: how far behind a surface solid is likely
 constexpr double kRising = 0.2;     // sine of the elevation from which a ray looks at the sky
 constexpr double kOpaque = 1e-3;    // a ray of which less is left has ended
@@ -59,11 +60,11 @@ void add_own_faces(const CellComplex& complex, const FaceWeights& weights, std::
 
 }  // namespace
 
-FirstHit first_hit(const std::vector<Crossing>& crossings, double limit_m) {
+FirstHit first_hit(const std::vector<Crossing>& crossings) {
   FirstHit hit;
   double left = 1;
   for (const Crossing& c : crossings) {
-    if (c.distance > limit_m || left < kOpaque) {
+    if (left < kOpaque) {
       break;
     }
     hit.front += left * c.front;
@@ -81,14 +82,14 @@ CellEvidence gather_evidence(const CellComplex& complex, const FaceWeights& weig
   int rising = 0;
   for (int r = 0; r < rays; ++r) {
     const RayStart start = random_ray(complex, walk, face, layer, static_cast<std::size_t>(r));
-    walk.follow({start.origin, start.direction, face, layer}, scratch);
+    walk.follow({start.origin, start.direction, face, layer}, kNoLimit, scratch);
     bool odd = false;
     for (const Crossing& c : scratch) {
       odd = odd != (c.omega > kPermanent);
       evidence.winding += c.front - c.back;
     }
     evidence.kappa += odd ? 1 : 0;
-    const FirstHit hit = first_hit(scratch, std::numeric_limits<double>::infinity());
+    const FirstHit hit = first_hit(scratch);
     evidence.around.front += hit.front / rays;
     evidence.around.back += hit.back / rays;
     if (start.direction.z() > kRising) {
@@ -103,8 +104,8 @@ CellEvidence gather_evidence(const CellComplex& complex, const FaceWeights& weig
   const Vec2 middle = complex.centroid(face);
   const double z = 0.5 * (complex.levels[layer] + complex.levels[layer + 1]);
   for (const double up : {-1.0, 1.0}) {
-    walk.follow({{middle.x(), middle.y(), z}, {0, 0, up}, face, layer}, scratch);
-    const FirstHit hit = first_hit(scratch, kColumnLimit);
+    walk.follow({{middle.x(), middle.y(), z}, {0, 0, up}, face, layer}, kColumnLimit, scratch);
+    const FirstHit hit = first_hit(scratch);
     evidence.vertical.front += 0.5 * hit.front;
     evidence.vertical.back += 0.5 * hit.back;
     evidence.vertical.near_back += 0.5 * hit.near_back;

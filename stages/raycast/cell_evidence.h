@@ -26,8 +26,8 @@ struct CellEvidence {
   double total_m2 = 0;  ///< area of all its faces
 };
 
-/// First hits along a sorted list of crossings, up to `limit_m`.
-FirstHit first_hit(const std::vector<Crossing>& crossings, double limit_m);
+/// First hits along a sorted list of crossings.
+FirstHit first_hit(const std::vector<Crossing>& crossings);
 
 /// Casts `rays` rays from random points of the cell. Pure function of its arguments: the random numbers are
 /// counted by cell and ray. `scratch` is reused storage.

@@ -50,7 +50,7 @@ FaceWalk::FaceWalk(const CellComplex& complex, const FaceWeights& weights)
   }
 }
 
-void FaceWalk::follow(const Ray& ray, std::vector<Crossing>& crossings) const {
+void FaceWalk::follow(const Ray& ray, double limit_m, std::vector<Crossing>& crossings) const {
   crossings.clear();
   const std::size_t edges = complex_.edges.size();
   const std::size_t faces = complex_.faces();
@@ -84,7 +84,7 @@ void FaceWalk::follow(const Ray& ray, std::vector<Crossing>& crossings) const {
     } else if (dz < -1e-12) {
       level_at = (complex_.levels[layer] - ray.origin.z()) / dz;
     }
-    if (exit == nullptr && level_at == kNever) {
+    if ((exit == nullptr && level_at == kNever) || std::min(wall_at, level_at) > limit_m) {
       return;
     }
     if (exit != nullptr && wall_at <= level_at) {

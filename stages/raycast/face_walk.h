@@ -33,9 +33,9 @@ class FaceWalk {
   /// Both must outlive the walk.
   FaceWalk(const CellComplex& complex, const FaceWeights& weights);
 
-  /// All faces that the ray crosses until it leaves the bounding box, nearest first; `crossings` is
-  /// overwritten.
-  void follow(const Ray& ray, std::vector<Crossing>& crossings) const;
+  /// All faces that the ray crosses within `limit_m` [m] until it leaves the bounding box, nearest first;
+  /// `crossings` is overwritten.
+  void follow(const Ray& ray, double limit_m, std::vector<Crossing>& crossings) const;
 
   /// A point of the face, uniform by area, from two numbers in [0, 1).
   Vec2 point_in(std::size_t face, double u, double v) const;

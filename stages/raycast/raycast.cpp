@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
+
+#include "stages/raycast/implied_faces.h"
 
 namespace roomcut {
 namespace {
@@ -51,6 +54,14 @@ DataTerms cast_rays(const CellComplex& complex, const FaceWeights& weights, cons
   const std::size_t faces = complex.faces();
   assert(cells == 0 || faces > 0);
   const bool parity = params.evidence == "parity";
+  if (parity) {
+    terms.wall_implied.assign(weights.wall_omega.size(), 0);
+    terms.level_implied.assign(weights.level_omega.size(), 0);
+  } else {
+    ImpliedFaces implied = find_implied_faces(complex, walk);
+    terms.wall_implied = std::move(implied.wall);
+    terms.level_implied = std::move(implied.level);
+  }
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, cells, 16), [&](const tbb::blocked_range<std::size_t>& range) {
         std::vector<Crossing> scratch;

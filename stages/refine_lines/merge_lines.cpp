@@ -9,7 +9,7 @@ namespace roomcut {
 
 namespace {
 
-constexpr double kReach_m = 1.0;      ///< as far as partition extends a line beyond its support
+constexpr double kReach_m = 4.5;  ///< partition extends both lines by 2 m: nearer ones would run side by side
 constexpr double kSignificant = 3.0;  ///< standard deviations
 constexpr double kInsignificant_m = 0.004;
 

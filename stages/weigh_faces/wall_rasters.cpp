@@ -183,7 +183,7 @@ void WallRasters::weigh_sides(FaceWeights& weights) const {
           strips.left += strip(left_is_plus ? plus_ : minus_, raster, columns, level);
           strips.right += strip(left_is_plus ? minus_ : plus_, raster, columns, level);
         }
-        const double left = left_probability(complex_, weights, edge, k, strips);
+        const double left = left_probability(complex_, weights, edge, k, strips, tolerances_.beside_low);
         const std::size_t face = complex_.wall_face(edge, k);
         weights.wall_left[face] = static_cast<float>(weights.wall_omega[face] * left);
         weights.wall_right[face] = static_cast<float>(weights.wall_omega[face] * (1 - left));
