@@ -4,6 +4,7 @@
 #include "stages/weigh_faces/level_rasters.h"
 #include "stages/weigh_faces/line_grid.h"
 #include "stages/weigh_faces/point_sorter.h"
+#include "stages/weigh_faces/seen_through.h"
 #include "stages/weigh_faces/wall_rasters.h"
 
 namespace roomcut {
@@ -47,6 +48,7 @@ FaceWeights FaceWeigher::weigh() const {
   state_->walls.weigh_coverage(weights);
   state_->levels.weigh(weights);
   state_->walls.weigh_sides(weights);
+  discount_seen_through(state_->complex, weights);
   weights.cell_points.resize(state_->complex.cells());
   for (std::size_t c = 0; c < weights.cell_points.size(); ++c) {
     weights.cell_points[c] = state_->inside.at(c);
