@@ -85,7 +85,8 @@ struct FaceWeights {
   std::vector<std::uint32_t> level_points;
   std::vector<std::uint32_t> cell_points;  ///< cells: points strictly inside, away from the cell's faces
   std::vector<float>
-      cell_slope;  ///< cells: share of the plan over which a sloped surface (roof) passes through
+      cell_slope;              ///< cells: share of the plan over which a sloped surface (roof) passes through
+  std::vector<Vec3> stations;  ///< scanner positions, where the scan names them [m]
 };
 
 /// Evidence and data term per cell (paper §2, data term). Every evidence is kept, so that one sees why a cell
@@ -100,7 +101,13 @@ struct DataTerms {
   std::vector<float> surface_m2;
   std::vector<float>
       behind;  ///< share of the rays that end close by on a face's back, 0 … 1: inside a wall or slab
+  std::vector<float> thin;      ///< how far the cell is as thin as walls and slabs are, 0 … 1
+  std::vector<float> in_slab;   ///< backs close by straight up and down, 0 … 1
+  std::vector<float> open;      ///< share of the level rays that meet nothing, beyond a fifth
+  std::vector<float> outdoors;  ///< share of the columns with nothing below times that with nothing above
   std::vector<float> sky;       ///< share of the rising rays that meet nothing at all: outdoors
+  std::vector<float> line_of_sight;  ///< share of the cell that the scanners looked through, where their
+                                     ///< positions are known
   std::vector<float> observed;  ///< share of rays that end on a seen face: 0 = nothing is known of the cell
   std::vector<float> beta;      ///< probability that the cell is empty, 0 … 1
   /// Faces that must be there though no point lies on them, 0 … 1: the other side of a wall or slab that was

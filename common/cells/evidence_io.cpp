@@ -64,6 +64,10 @@ FaceWeights read_weights(const std::filesystem::path& path, const CellsFile& cel
   weights.level_points = file.read<std::uint32_t>("level/points", {sizes.levels});
   weights.cell_points = file.read<std::uint32_t>("cell/points", {sizes.cells});
   weights.cell_slope = read_share(file, "cell/slope", sizes.cells);
+  const auto stations = file.read<double>("stations/xyz", {0, 3});
+  for (std::size_t i = 0; i < stations.size(); i += 3) {
+    weights.stations.emplace_back(stations[i], stations[i + 1], stations[i + 2]);
+  }
   return weights;
 }
 
@@ -92,6 +96,12 @@ bool write_weights(const std::filesystem::path& path, const FaceWeights& weights
   file.write("cell/points", weights.cell_points, "1", "points strictly inside the cell, away from its faces");
   write_share(file, "cell/slope", weights.cell_slope, sizes.cells,
               "share of the cell's plan over which a sloped surface passes through the cell");
+  std::vector<double> stations;
+  for (const Vec3& station : weights.stations) {
+    stations.insert(stations.end(), {station.x(), station.y(), station.z()});
+  }
+  file.write("stations/xyz", std::span<const double>(stations), {weights.stations.size(), 3}, "m",
+             "scanner positions, where the scan names them");
   return file.commit();
 }
 
@@ -107,7 +117,12 @@ DataTerms read_data_terms(const std::filesystem::path& path, const CellsFile& ce
   check_range(file, "cell/winding", terms.winding, -1e6, 1e6);
   check_range(file, "cell/surface", terms.surface_m2, -1e12, 1e12);
   terms.behind = read_share(file, "cell/behind", count);
+  terms.thin = read_share(file, "cell/thin", count);
+  terms.in_slab = read_share(file, "cell/in_slab", count);
+  terms.open = read_share(file, "cell/open", count);
+  terms.outdoors = read_share(file, "cell/outdoors", count);
   terms.sky = read_share(file, "cell/sky", count);
+  terms.line_of_sight = read_share(file, "cell/line_of_sight", count);
   terms.observed = read_share(file, "cell/observed", count);
   terms.beta = read_share(file, "cell/beta", count);
   const Sizes sizes(cells.complex);
@@ -137,6 +152,15 @@ bool write_data_terms(const std::filesystem::path& path, const DataTerms& terms,
              "covered area of the cell's own faces: + where it faces the cell, - where it turns its back");
   write_share(file, "cell/behind", terms.behind, count,
               "share of the rays that end close by on a face's back: inside a wall or slab");
+  write_share(file, "cell/thin", terms.thin, count, "how far the cell is as thin as walls and slabs are");
+  write_share(file, "cell/in_slab", terms.in_slab, count,
+              "backs close by straight up and down: inside a slab");
+  write_share(file, "cell/open", terms.open, count,
+              "share of the level rays that meet nothing, beyond a fifth: not closed all around");
+  write_share(file, "cell/outdoors", terms.outdoors, count,
+              "share of the columns with nothing below times that with nothing above");
+  write_share(file, "cell/line_of_sight", terms.line_of_sight, count,
+              "share of the cell that the scanners looked through; 0 where no position is known");
   write_share(file, "cell/sky", terms.sky, count, "share of the rising rays that meet nothing: outdoors");
   write_share(file, "cell/observed", terms.observed, count, "share of the rays that end on a seen face");
   write_share(file, "cell/beta", terms.beta, count, "probability that the cell is empty");

@@ -40,8 +40,8 @@ Rules derive_rules(const Slices& slices, const WallCells& cells, const DetectLin
   rules.fit.cauchy_m = std::max(0.01, noise);
   rules.fit.bin_m = 2 * slices.tau_m;
   rules.fit.max_gap_m = params.max_gap_m;
-  const double merge = std::clamp(3.5 * noise, 0.04, 0.06);
-  rules.merge.distance_m = resolve(params.merge_m, merge, "merge_m", "3.5 x noise, 4 ... 6 cm", choices);
+  const double merge = std::clamp(3.5 * noise, 0.02, 0.06);
+  rules.merge.distance_m = resolve(params.merge_m, merge, "merge_m", "3.5 x noise, 2 ... 6 cm", choices);
   rules.merge.angle_rad = params.merge_angle_rad;
 
   const auto [x0, x1] = std::minmax_element(cells.x.begin(), cells.x.end());

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "common/random/counter_random.h"
@@ -13,11 +12,13 @@ namespace {
 
 constexpr std::uint64_t kSeed = 2013;
 constexpr float kPermanent = 0.5F;  // paper: a face with omega above 1/2 is permanent
-constexpr double kColumnLimit =
-    8.0;  // [m] looking up and down: no room is higher, and far levels are another storey's
+constexpr int kColumns = 8;         // looking up and down
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 constexpr double kThickness = 0.5;  // [m] of walls and slabs: how far behind a surface solid is likely
 constexpr double kRising = 0.2;     // sine of the elevation from which a ray looks at the sky
+constexpr double kPlate = 0.3;      // [m] thickness of a plate that is taken for a wall or slab …
+constexpr double kWide = 0.6;       // [m] … and of what is none any more
+constexpr double kOpenings = 0.2;   // share of a room's level rays that windows and doors let out
 constexpr double kOpaque = 1e-3;    // a ray of which less is left has ended
 
 struct RayStart {
@@ -60,6 +61,34 @@ void add_own_faces(const CellComplex& complex, const FaceWeights& weights, std::
 
 }  // namespace
 
+double FirstHit::nothing() const {
+  return std::max(0.0, 1 - front - back);
+}
+
+void FirstHit::add(const FirstHit& other, double weight) {
+  front += weight * other.front;
+  back += weight * other.back;
+  near_back += weight * other.near_back;
+}
+
+double CellEvidence::thin() const {
+  // Of a plate this is its thickness; of a room about half its width.
+  const double thickness = total_m2 > 0 ? 2 * volume_m3 / total_m2 : 0;
+  return std::clamp((kWide - thickness) / (kWide - kPlate), 0.0, 1.0);
+}
+
+double CellEvidence::open() const {
+  return std::max(0.0, level.nothing() - kOpenings);
+}
+
+double CellEvidence::outdoors() const {
+  return up.nothing() * down.nothing();
+}
+
+double CellEvidence::in_slab() const {
+  return 0.5 * (up.near_back + down.near_back);
+}
+
 FirstHit first_hit(const std::vector<Crossing>& crossings) {
   FirstHit hit;
   double left = 1;
@@ -75,14 +104,15 @@ FirstHit first_hit(const std::vector<Crossing>& crossings) {
   return hit;
 }
 
-CellEvidence gather_evidence(const CellComplex& complex, const FaceWeights& weights, const FaceWalk& walk,
-                             std::size_t face, std::size_t layer, int rays, std::vector<Crossing>& scratch) {
-  CellEvidence evidence;
-  add_own_faces(complex, weights, face, layer, evidence);
+namespace {
+
+void look_around(const CellComplex& complex, const FaceWalk& walk, std::size_t face, std::size_t layer,
+                 int rays, std::vector<Crossing>& scratch, CellEvidence& evidence) {
   int rising = 0;
+  int level = 0;
   for (int r = 0; r < rays; ++r) {
     const RayStart start = random_ray(complex, walk, face, layer, static_cast<std::size_t>(r));
-    walk.follow({start.origin, start.direction, face, layer}, kNoLimit, scratch);
+    walk.follow({start.origin, start.direction, face, layer}, scratch);
     bool odd = false;
     for (const Crossing& c : scratch) {
       odd = odd != (c.omega > kPermanent);
@@ -90,26 +120,46 @@ CellEvidence gather_evidence(const CellComplex& complex, const FaceWeights& weig
     }
     evidence.kappa += odd ? 1 : 0;
     const FirstHit hit = first_hit(scratch);
-    evidence.around.front += hit.front / rays;
-    evidence.around.back += hit.back / rays;
+    evidence.around.add(hit, 1.0 / rays);
+    if (start.direction.z() == 0) {
+      ++level;
+      evidence.level.add(hit, 1);
+    }
     if (start.direction.z() > kRising) {
       ++rising;
-      evidence.sky += std::max(0.0, 1 - hit.front - hit.back);
+      evidence.sky += hit.nothing();
     }
-    evidence.around.near_back += hit.near_back / rays;
   }
+  FirstHit mean;
+  mean.add(evidence.level, 1.0 / std::max(1, level));
+  evidence.level = mean;
   evidence.kappa /= rays;
   evidence.sky /= std::max(1, rising);
   evidence.winding /= rays;
-  const Vec2 middle = complex.centroid(face);
+}
+
+void look_up_and_down(const CellComplex& complex, const FaceWalk& walk, std::size_t face, std::size_t layer,
+                      std::vector<Crossing>& scratch, CellEvidence& evidence) {
   const double z = 0.5 * (complex.levels[layer] + complex.levels[layer + 1]);
-  for (const double up : {-1.0, 1.0}) {
-    walk.follow({{middle.x(), middle.y(), z}, {0, 0, up}, face, layer}, kColumnLimit, scratch);
-    const FirstHit hit = first_hit(scratch);
-    evidence.vertical.front += 0.5 * hit.front;
-    evidence.vertical.back += 0.5 * hit.back;
-    evidence.vertical.near_back += 0.5 * hit.near_back;
+  for (int i = 0; i < kColumns; ++i) {
+    // Spread evenly over the face (golden ratio).
+    const Vec2 p = walk.point_in(face, (i + 0.5) / kColumns, std::fmod(0.5 + i * std::numbers::phi, 1.0));
+    for (const double up : {-1.0, 1.0}) {
+      walk.follow({{p.x(), p.y(), z}, {0, 0, up}, face, layer}, scratch);
+      (up > 0 ? evidence.up : evidence.down).add(first_hit(scratch), 1.0 / kColumns);
+    }
   }
+}
+
+}  // namespace
+
+CellEvidence gather_evidence(const CellComplex& complex, const FaceWeights& weights, const FaceWalk& walk,
+                             std::size_t face, std::size_t layer, int rays, std::vector<Crossing>& scratch) {
+  CellEvidence evidence;
+  evidence.volume_m3 = complex.area(face) * complex.height(layer);
+  add_own_faces(complex, weights, face, layer, evidence);
+  look_around(complex, walk, face, layer, rays, scratch, evidence);
+  look_up_and_down(complex, walk, face, layer, scratch, evidence);
   return evidence;
 }
 

@@ -12,6 +12,9 @@ struct FirstHit {
   double front = 0;      ///< share of the ray that ends on a surface's front: the way there is empty
   double back = 0;       ///< share that ends on a back: solid just before it
   double near_back = 0;  ///< the same, fading with the distance: walls and slabs are thin
+
+  double nothing() const;  ///< share that leaves the bounding box
+  void add(const FirstHit& other, double weight);
 };
 
 /// What speaks for a cell being empty or solid. Each measure by itself; combined in raycast.cpp.
@@ -19,11 +22,23 @@ struct CellEvidence {
   double kappa = 0;    ///< share of rays with an odd number of permanent faces (omega > 1/2)
   double winding = 0;  ///< mean of the signed crossings, fronts - backs
   FirstHit around;     ///< mean over the rays
-  FirstHit vertical;   ///< mean of straight up and straight down
+  FirstHit level;      ///< mean over the level rays
+  FirstHit up, down;   ///< mean over columns straight up and down
   double sky = 0;      ///< share of the rising rays that meet nothing
   double front_m2 = 0,
          back_m2 = 0;   ///< covered area of the cell's own faces that shows it its front, its back
   double total_m2 = 0;  ///< area of all its faces
+  double volume_m3 = 0;
+  double carved = 0;  ///< share of it that a scanner looked through; 0 when no position is known
+
+  /// How far the cell is as thin as walls and slabs are, 0 … 1.
+  double thin() const;
+  /// Level rays that meet nothing, beyond a fifth: rooms are closed all around but for windows and doors.
+  double open() const;
+  /// Neither anything below nor above: outdoors.
+  double outdoors() const;
+  /// Backs close by straight up and down: inside a slab.
+  double in_slab() const;
 };
 
 /// First hits along a sorted list of crossings.

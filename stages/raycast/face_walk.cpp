@@ -50,7 +50,7 @@ FaceWalk::FaceWalk(const CellComplex& complex, const FaceWeights& weights)
   }
 }
 
-void FaceWalk::follow(const Ray& ray, double limit_m, std::vector<Crossing>& crossings) const {
+void FaceWalk::follow(const Ray& ray, std::vector<Crossing>& crossings, double limit_m) const {
   crossings.clear();
   const std::size_t edges = complex_.edges.size();
   const std::size_t faces = complex_.faces();
@@ -92,7 +92,8 @@ void FaceWalk::follow(const Ray& ray, double limit_m, std::vector<Crossing>& cro
       const std::size_t w = layer * edges + static_cast<std::size_t>(exit->edge);
       const Sides& s = walls_[w];
       crossings.push_back(
-          {now, weights_.wall_omega[w], exit->is_left ? s.front : s.back, exit->is_left ? s.back : s.front});
+          {now, weights_.wall_omega[w], exit->is_left ? s.front : s.back, exit->is_left ? s.back : s.front,
+           exit->is_left ? weights_.wall_left[w] : weights_.wall_right[w], complex_.cell(face, layer)});
       if (exit->neighbour < 0) {
         return;
       }
@@ -104,7 +105,9 @@ void FaceWalk::follow(const Ray& ray, double limit_m, std::vector<Crossing>& cro
       const std::size_t l = level * faces + face;
       const float floor = weights_.level_floor[l];
       const float ceiling = weights_.level_ceiling[l];
-      crossings.push_back({now, weights_.level_omega[l], dz > 0 ? ceiling : floor, dz > 0 ? floor : ceiling});
+      const Sides& s = levels_[l];
+      crossings.push_back({now, weights_.level_omega[l], dz > 0 ? s.back : s.front, dz > 0 ? s.front : s.back,
+                           dz > 0 ? ceiling : floor, complex_.cell(face, layer)});
       if ((dz > 0 && layer + 1 == complex_.layers()) || (dz < 0 && layer == 0)) {
         return;
       }

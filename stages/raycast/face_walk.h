@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "common/cells/cell_complex.h"
@@ -14,6 +15,8 @@ struct Crossing {
   float omega;      ///< covered share
   float front;      ///< completed share of surface that shows the ray its front: empty on the ray's side
   float back;  ///< … its back: solid on the ray's side; front + back <= 1, what is left lets the ray through
+  float seen_front;  ///< the share that was seen of that front, not completed
+  std::size_t cell;  ///< the cell that the ray leaves here
 };
 
 /// The share of a face that is taken for a surface when `omega` of it was seen. Windows, furniture and
@@ -35,7 +38,8 @@ class FaceWalk {
 
   /// All faces that the ray crosses within `limit_m` [m] until it leaves the bounding box, nearest first;
   /// `crossings` is overwritten.
-  void follow(const Ray& ray, double limit_m, std::vector<Crossing>& crossings) const;
+  void follow(const Ray& ray, std::vector<Crossing>& crossings,
+              double limit_m = std::numeric_limits<double>::infinity()) const;
 
   /// A point of the face, uniform by area, from two numbers in [0, 1).
   Vec2 point_in(std::size_t face, double u, double v) const;

@@ -28,7 +28,7 @@ double back_near(const std::vector<Crossing>& crossings) {
 }
 
 double look(const FaceWalk& walk, const Ray& ray, std::vector<Crossing>& scratch) {
-  walk.follow(ray, kThickest, scratch);
+  walk.follow(ray, scratch, kThickest);
   return back_near(scratch);
 }
 
