@@ -46,4 +46,15 @@ Vec2 CellComplex::centroid(std::size_t face) const {
   return base + sum / static_cast<double>(end - begin);  // a sliver without area: the mean of its corners
 }
 
+void DataTerms::reset(const CellComplex& complex) {
+  for (std::vector<float>* values : {&kappa, &vertical, &around, &winding, &surface_m2, &thin, &behind,
+                                     &in_slab, &open, &outdoors, &sky, &line_of_sight, &observed, &beta}) {
+    values->assign(complex.cells(), 0);
+  }
+  wall_implied.assign(complex.edges.size() * complex.layers(), 0);
+  level_implied.assign(complex.faces() * complex.levels.size(), 0);
+  d_empty.assign(complex.cells(), 0);
+  d_solid.assign(complex.cells(), 0);
+}
+
 }  // namespace roomcut

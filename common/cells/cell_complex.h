@@ -92,6 +92,9 @@ struct FaceWeights {
 /// Evidence and data term per cell (paper §2, data term). Every evidence is kept, so that one sees why a cell
 /// came out.
 struct DataTerms {
+  /// Sets all values to 0, as many as the complex has cells and faces.
+  void reset(const CellComplex& complex);
+
   std::vector<float> kappa;     ///< share of rays with an odd number of crossings, 0 … 1
   std::vector<float> vertical;  ///< nearest permanent face straight up and down: +1 empty … -1 solid
   std::vector<float> around;    ///< the same along the rays: +1 empty … -1 solid

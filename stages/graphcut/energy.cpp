@@ -24,7 +24,9 @@ EnergyTerms energy_terms(const CellComplex& complex, const FaceWeights& weights,
                          double mu_m) {
   if (terms.d_empty.size() != complex.cells() || terms.d_solid.size() != complex.cells() ||
       weights.wall_omega.size() != complex.edges.size() * complex.layers() ||
-      weights.level_omega.size() != complex.faces() * complex.levels.size()) {
+      weights.level_omega.size() != complex.faces() * complex.levels.size() ||
+      terms.wall_implied.size() != weights.wall_omega.size() ||
+      terms.level_implied.size() != weights.level_omega.size()) {
     throw std::logic_error("weights or data terms do not fit the complex");
   }
   EnergyTerms energy;

@@ -9,7 +9,8 @@
 namespace roomcut {
 
 /// The energy of paper §2 as a sum of capacities on the faces and cells of the complex, in m^3:
-///   E = sum over cells of D(label) + mu * sum over faces of (1 - omega) * area * [labels differ],
+///   E = sum over cells of D(label) + mu * sum over faces of (1 - omega) * (1 - implied) * area * [labels
+///   differ],
 /// beyond the bounding box all is solid. Every term is rounded to kQuantum, so that sums of terms are exact
 /// in double (up to 8e6 m^3): the minimum does not depend on the order of summation, and the cut's flow
 /// equals its energy.

@@ -33,22 +33,11 @@ double empty_log_odds(const CellEvidence& e) {
   // A thin cell between backs is a wall. A wide one that shows backs lies between rooms: it is more likely a
   // room that was not entered than anything else.
   const double back = (-2.5 * e.thin() + 1.0 * (1 - e.thin())) * e.back_m2 / surface;
-  return 1 + e.front_m2 / surface + back + 2 * e.around.front - 1.75 * e.around.near_back -
+  return 1 + 0.5 * e.front_m2 / surface + back + 2 * e.around.front - 1.75 * e.around.near_back -
          3.5 * e.in_slab() - 3 * e.open() - 2 * e.outdoors() - e.sky + 3 * e.carved;
 }
 
 namespace {
-
-void resize(DataTerms& terms, std::size_t cells) {
-  for (std::vector<float>* values :
-       {&terms.kappa, &terms.vertical, &terms.around, &terms.winding, &terms.surface_m2, &terms.thin,
-        &terms.behind, &terms.in_slab, &terms.open, &terms.outdoors, &terms.sky, &terms.line_of_sight,
-        &terms.observed, &terms.beta}) {
-    values->resize(cells);
-  }
-  terms.d_empty.resize(cells);
-  terms.d_solid.resize(cells);
-}
 
 void store(const CellEvidence& e, std::size_t c, DataTerms& terms) {
   terms.kappa[c] = between(0, e.kappa, 1);
@@ -79,11 +68,9 @@ DataTerms cast_rays(const CellComplex& complex, const FaceWeights& weights, cons
   const std::size_t faces = complex.faces();
   assert(cells == 0 || faces > 0);
   DataTerms terms;
-  resize(terms, cells);
+  terms.reset(complex);
   const FaceWalk walk(complex, weights);
   const bool parity = params.evidence == "parity";
-  terms.wall_implied.assign(weights.wall_omega.size(), 0);
-  terms.level_implied.assign(weights.level_omega.size(), 0);
   if (!parity) {
     add_implied_faces(complex, walk, terms);
   }

@@ -50,10 +50,17 @@ class CellsIo : public testing::Test {
 
   DataTerms terms() const {
     DataTerms terms;
-    for (auto* values : {&terms.kappa, &terms.vertical, &terms.around, &terms.winding, &terms.surface_m2,
-                         &terms.behind, &terms.sky, &terms.observed, &terms.beta}) {
+    terms.reset(cells_.complex);
+    for (auto* values : {&terms.thin, &terms.in_slab, &terms.open, &terms.outdoors, &terms.line_of_sight}) {
       values->assign(6, 0.25F);
     }
+    terms.in_slab[1] = 0.5F;
+    terms.open[2] = 0.5F;
+    terms.outdoors[3] = 0.5F;
+    terms.line_of_sight[4] = 0.5F;
+    terms.wall_implied.front() = 0.75F;
+    terms.level_implied.back() = 1.0F;
+    terms.sky.assign(6, 0.5F);
     terms.vertical[2] = -1;
     terms.winding[1] = -3;
     terms.surface_m2[0] = -12.5F;
@@ -65,6 +72,7 @@ class CellsIo : public testing::Test {
   FaceWeights weights() const {
     FaceWeights weights;
     weights.wall_omega.assign(20, 0.5F);
+    weights.stations = {Vec3(1, 2, 3)};
     weights.wall_left.assign(20, 1.0F);
     weights.wall_right.assign(20, 0.0F);
     weights.wall_points.assign(20, 7);
@@ -128,6 +136,8 @@ TEST_F(CellsIo, EvidenceAndLabelsComeBackAsTheyWere) {
   EXPECT_EQ(w.level_points, weights().level_points);
   EXPECT_EQ(w.cell_points, weights().cell_points);
   EXPECT_EQ(w.cell_slope, weights().cell_slope);
+  ASSERT_EQ(w.stations.size(), 1U);
+  EXPECT_EQ(w.stations[0], Vec3(1, 2, 3));
 
   write_data_terms(folder_ / "terms.h5", terms(), cells_, provenance_);
   const DataTerms t = read_data_terms(folder_ / "terms.h5", cells_);
@@ -136,6 +146,13 @@ TEST_F(CellsIo, EvidenceAndLabelsComeBackAsTheyWere) {
   EXPECT_EQ(t.surface_m2, terms().surface_m2);
   EXPECT_EQ(t.behind, terms().behind);
   EXPECT_EQ(t.sky, terms().sky);
+  EXPECT_EQ(t.thin, terms().thin);
+  EXPECT_EQ(t.in_slab, terms().in_slab);
+  EXPECT_EQ(t.open, terms().open);
+  EXPECT_EQ(t.outdoors, terms().outdoors);
+  EXPECT_EQ(t.line_of_sight, terms().line_of_sight);
+  EXPECT_EQ(t.wall_implied, terms().wall_implied);
+  EXPECT_EQ(t.level_implied, terms().level_implied);
   EXPECT_EQ(t.d_empty, terms().d_empty);
   EXPECT_EQ(t.d_solid, terms().d_solid);
 

@@ -48,12 +48,7 @@ class ExtractProgram : public testing::Test {
     weights.cell_slope.assign(complex.cells(), 0);
     write_weights(folder / "weights.h5", weights, cells, {});
     DataTerms terms;
-    for (auto* values : {&terms.kappa, &terms.vertical, &terms.around, &terms.winding, &terms.surface_m2,
-                         &terms.behind, &terms.sky, &terms.observed, &terms.beta}) {
-      values->assign(complex.cells(), 0);
-    }
-    terms.d_empty.assign(complex.cells(), 0);
-    terms.d_solid.assign(complex.cells(), 0);
+    terms.reset(complex);
     write_data_terms(folder / "data_terms.h5", terms, cells, {});
     write_labels(folder / "labels.h5", test::label_where(complex, empty), cells, {});
   }

@@ -73,12 +73,13 @@ FaceWeights no_weights(const CellComplex& complex) {
 
 DataTerms terms_of(const CellComplex& complex, const std::vector<float>& beta) {
   DataTerms terms;
+  terms.reset(complex);
   terms.beta = beta;
   terms.observed.assign(complex.cells(), 1.0F);
   for (std::size_t c = 0; c < complex.cells(); ++c) {
     const double volume = complex.area(c % complex.faces()) * complex.height(c / complex.faces());
-    terms.d_empty.push_back(volume * (1 - beta[c]));
-    terms.d_solid.push_back(volume * beta[c]);
+    terms.d_empty[c] = volume * (1 - beta[c]);
+    terms.d_solid[c] = volume * beta[c];
   }
   return terms;
 }

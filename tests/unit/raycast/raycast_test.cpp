@@ -115,6 +115,58 @@ TEST(CastRays, AWallOfWhichOneFaceWasNotSeenKeepsBothRooms) {
   EXPECT_GT(t.beta[scene.east], 0.7);
 }
 
+TEST(CastRays, TheUnseenFaceOfAWallIsImpliedByTheSeenOne) {
+  TwoRooms scene;
+  const std::size_t unseen = scene.complex.wall_face(edge_near(scene.complex, {4.1, 2}), 1);
+  scene.weights.wall_omega[unseen] = scene.weights.wall_left[unseen] = scene.weights.wall_right[unseen] = 0;
+  const DataTerms t = cast_rays(scene.complex, scene.weights, {});
+  EXPECT_GT(t.wall_implied[unseen], 0.99);
+  EXPECT_EQ(t.wall_implied[scene.complex.wall_face(edge_near(scene.complex, {8.1, 2}), 1)], 0)
+      << "4 m from the next wall that shows it its back";
+  EXPECT_GT(t.d_empty[scene.wall], t.d_solid[scene.wall]);
+}
+
+TEST(CastRays, ATerraceIsNoRoom) {
+  Cube cube;
+  FaceWeights weights = no_weights(cube.complex);
+  const std::size_t floor = cube.complex.level_face(4, 1);
+  const std::size_t facade = cube.complex.wall_face(edge_near(cube.complex, {0, 1.5}), 1);
+  weights.level_omega[floor] = weights.level_floor[floor] = 1;
+  weights.wall_omega[facade] = cube.weights.wall_omega[facade];
+  weights.wall_left[facade] = cube.weights.wall_left[facade];
+  weights.wall_right[facade] = cube.weights.wall_right[facade];
+  const DataTerms t = cast_rays(cube.complex, weights, {});
+  EXPECT_LT(t.beta[cube.room], 0.5);
+  EXPECT_GT(t.open[cube.room], 0.3);
+}
+
+TEST(CastRays, ARoomNotEnteredButSeenThroughItsDoorIsEmpty) {
+  // Walls of the neighbours show it their backs on three sides, a fourth its front; a third of its floor was
+  // seen.
+  Cube cube;
+  FaceWeights weights = cube.weights;
+  for (const Vec2& middle : {Vec2(0, 1.5), Vec2(3, 1.5), Vec2(1.5, 0)}) {
+    const std::size_t w = cube.complex.wall_face(edge_near(cube.complex, middle), 1);
+    std::swap(weights.wall_left[w], weights.wall_right[w]);
+  }
+  const std::size_t floor = cube.complex.level_face(4, 1);
+  const std::size_t ceiling = cube.complex.level_face(4, 2);
+  weights.level_omega[floor] = weights.level_floor[floor] = 0.33F;
+  weights.level_omega[ceiling] = weights.level_ceiling[ceiling] = 0;
+  EXPECT_GT(cast_rays(cube.complex, weights, {}).beta[cube.room], 0.5);
+}
+
+TEST(CastRays, AScannersLineOfSightSpeaksForEmptySpace) {
+  TwoRooms scene;
+  scene.weights.stations = {Vec3(1, 1, 1.5), Vec3(1e4, 0, 0)};
+  const DataTerms t = cast_rays(scene.complex, scene.weights, {});
+  EXPECT_GT(t.line_of_sight[scene.west], 0.85);
+  EXPECT_LT(t.line_of_sight[scene.wall], 0.01);
+  EXPECT_LT(t.line_of_sight[scene.east], 0.01);
+  TwoRooms without;
+  EXPECT_GT(t.beta[scene.west], cast_rays(without.complex, without.weights, {}).beta[scene.west]);
+}
+
 TEST(CastRays, NothingIsKnownWhereNothingWasSeen) {
   const Cube cube;
   const DataTerms t = cast_rays(cube.complex, no_weights(cube.complex), {});
