@@ -59,7 +59,7 @@ $(eval $(call stage,partition,partition,$(cells),$(lines_40) $(slices)))
 $(eval $(call stage,weigh_faces,weigh_faces,$(weights),$(cells) $(cloud)))
 $(eval $(call stage,raycast,raycast,$(terms),$(cells) $(weights)))
 $(eval $(call stage,graphcut,graphcut,$(labels),$(cells) $(weights) $(terms)))
-$(eval $(call stage,refine_lines,refine_lines,$(lines_80),$(lines_40) $(cells) $(labels) $(cloud)))
+$(eval $(call stage,refine_lines,refine_lines,$(lines_80),$(lines_40) $(cells) $(weights) $(labels) $(cloud)))
 
 # The second pass: the same programs and parameters on the refined lines.
 $(eval $(call stage,final_partition,partition,90_final/cells.h5,$(lines_80) $(slices),\

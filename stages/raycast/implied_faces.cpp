@@ -14,6 +14,7 @@ namespace {
 constexpr double kCommon = 0.4;      // [m] thickness of common walls and slabs
 constexpr double kThickest = 0.8;    // [m]
 constexpr double kSampleStep = 0.5;  // [m] along an edge
+constexpr double kTrust = 0.9;       // slivers at the ends of walls should still prefer the smaller surface
 constexpr int kMostSamples = 12;
 
 /// Share of the ray that ends on a back close by.
@@ -73,7 +74,7 @@ float implied_level(const CellComplex& complex, const FaceWalk& walk, std::size_
 }  // namespace
 
 double thickness_weight(double distance_m) {
-  return std::clamp((kThickest - distance_m) / (kThickest - kCommon), 0.0, 1.0);
+  return kTrust * std::clamp((kThickest - distance_m) / (kThickest - kCommon), 0.0, 1.0);
 }
 
 ImpliedFaces find_implied_faces(const CellComplex& complex, const FaceWalk& walk) {

@@ -3,6 +3,7 @@
 #include "common/cli/run_stage.h"
 #include "common/cloud/cloud_io.h"
 #include "common/wall_lines/wall_lines_io.h"
+#include "stages/refine_lines/one_sided.h"
 #include "stages/refine_lines/params.h"
 #include "stages/refine_lines/refine_lines.h"
 
@@ -13,10 +14,11 @@ using namespace roomcut;
 StageInfo info() {
   StageInfo stage;
   stage.name = "refine_lines";
-  stage.revision = 2;
+  stage.revision = 3;
   stage.summary = "Refines the wall lines that carry a wall in the first cut, on raw points";
   stage.inputs = {{"lines", "40_accept_lines/wall_lines.geojson", "Accepted wall lines"},
                   {"cells", "50_partition/cells.h5", "Cell complex of the first pass"},
+                  {"weights", "55_weigh_faces/weights.h5", "Weights of its faces"},
                   {"labels", "70_graphcut/labels.h5", "Its labels"},
                   {"cloud", "10_ingest/cloud.h5", "Points"}};
   stage.outputs = {{"lines-out", "80_refine_lines/wall_lines.geojson", "Refined wall lines"}};
@@ -49,8 +51,11 @@ void body(StageRun& run, const RefineLinesParams& params) {
   const CellsFile cells = read_cells(run.input("cells"));
   const Labels labels = read_labels(run.input("labels"), cells);
   const CloudReader cloud(run.input("cloud"));
+  const FaceWeights weights = read_weights(run.input("weights"), cells);
+  const std::vector<OneSidedWall> one_sided =
+      find_one_sided(cells.complex, weights, labels.label, params.one_sided_m2);
   LineRefiner refiner(lines.content, cells.complex, labels.label, cloud.header().noise_m,
-                      cloud.header().density, params);
+                      cloud.header().density, params, ids_of(one_sided));
   if (!params.band_m) {
     run.chose("band_m", refiner.band_m(), "the larger of 6 cm and 5 x noise");
   }
@@ -60,7 +65,10 @@ void body(StageRun& run, const RefineLinesParams& params) {
   Progress progress = run.progress("observing", cloud.header().points);
   cloud.for_each_tile([&](std::size_t, const CloudTile& tile) { refiner.add(tile); },
                       [&](std::uint64_t points) { progress.advance(points); });
-  const Refinement refinement = refiner.finish();
+  Refinement refinement = refiner.finish();
+  const double thickness = usual_thickness(cells.complex, labels.label);
+  run.count("unseen faces added", add_unseen_faces(one_sided, thickness, refinement.lines));
+  run.count("usual thickness of a wall", 1e3 * thickness, "mm");
   write_wall_lines(run.output("lines-out"), refinement.lines, run.provenance());
   report(run, refinement);
 }

@@ -12,6 +12,7 @@ namespace roomcut {
 struct RefineLinesParams {
   bool enabled = true;
   double min_interface_m2 = 0.2;
+  double one_sided_m2 = 3;
   std::optional<double> band_m;  ///< auto: max(6 cm, 5 noise)
   double bin_m = 0.1;
   double regularity_rad = 0.1 * std::numbers::pi / 180;
@@ -26,6 +27,9 @@ inline ParameterTable refine_lines_parameters(RefineLinesParams& p) {
       number(
           "min_interface_m2", p.min_interface_m2, "m^2", 0, 100,
           "Detected lines with less surface between empty and solid cells are dropped from the second pass."),
+      number("one_sided_m2", p.one_sided_m2, "m^2", 0, 1000,
+             "A wall of which this much was seen from one side gets its unseen face, one usual thickness "
+             "behind."),
       auto_number(
           "band_m", p.band_m, "m", 0.005, 0.5,
           "Half width of the band around a line whose points are observed; auto: max(0.06, 5 x noise)."),

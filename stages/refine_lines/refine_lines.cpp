@@ -36,6 +36,7 @@ struct Item {
   LineFit fit;
   bool constant = false;
   bool users = false;
+  bool keeps_ends = false;  ///< of a line of the user's, or a wall seen from one side
   double area_m2 = 0;
 };
 
@@ -45,10 +46,11 @@ struct LineRefiner::State {
   const CellComplex& complex;
   RefineLinesParams params;
   double band, merge;
-  WallLines kept;                  ///< frame, box, base; no lines
-  std::vector<WallLine> walls;     ///< survivors, sorted by id
-  std::vector<std::size_t> index;  ///< of each survivor among complex.lines, or that list's size
-  std::vector<LineFaces> faces;    ///< of complex.lines
+  WallLines kept;                   ///< frame, box, base; no lines
+  std::set<std::string> one_sided;  ///< ids of lines that stay as long as they were
+  std::vector<WallLine> walls;      ///< survivors, sorted by id
+  std::vector<std::size_t> index;   ///< of each survivor among complex.lines, or that list's size
+  std::vector<LineFaces> faces;     ///< of complex.lines
   std::unique_ptr<LineObserver> observer;
   Refinement result;
 
@@ -66,12 +68,13 @@ struct LineRefiner::State {
 
 LineRefiner::LineRefiner(const WallLines& lines, const CellComplex& complex,
                          const std::vector<std::uint8_t>& label, double noise_m, double density,
-                         const RefineLinesParams& params)
+                         const RefineLinesParams& params, const std::set<std::string>& kept)
     : state_(new State{complex,
                        params,
                        params.band_m.value_or(std::max(0.06, 5 * noise_m)),
                        params.merge_m.value_or(std::max(0.015, 1.2 * noise_m)),
                        lines,
+                       kept,
                        {},
                        {},
                        {},
@@ -91,7 +94,7 @@ LineRefiner::LineRefiner(const WallLines& lines, const CellComplex& complex,
     const std::size_t i = found == by_id.end() ? complex.lines.size() : found->second;
     const double area = i < complex.lines.size() ? s.faces[i].area_m2 : 0;
     any_surface = any_surface || area > 0;
-    if (area < params.min_interface_m2 && !is_users(wall)) {
+    if (area < params.min_interface_m2 && !is_users(wall) && !kept.contains(wall.id)) {
       ++s.result.dropped;
       continue;
     }
@@ -213,7 +216,7 @@ void set_ends(WallLine& wall, const Item& item, const Line2& line) {
     places.push_back(faces.line.at(faces.t0));
     places.push_back(faces.line.at(faces.t1));
   }
-  if (item.users) {
+  if (item.keeps_ends) {
     places.push_back(wall.a);
     places.push_back(wall.b);
   }
@@ -276,6 +279,7 @@ Refinement LineRefiner::finish() {
     Item item;
     item.wall = s.walls[i];
     item.users = is_users(item.wall);
+    item.keeps_ends = item.users || s.one_sided.contains(item.wall.id);
     if (s.index[i] < s.faces.size()) {
       item.faces.push_back(s.faces[s.index[i]]);
       item.area_m2 = item.faces.front().area_m2;

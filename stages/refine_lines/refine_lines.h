@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "common/cells/cell_complex.h"
@@ -32,9 +34,11 @@ class LineRefiner {
  public:
   /// `label` as Labels::label of `complex`, which `lines` were partitioned into; `noise_m` of the points off
   /// their plane. All are copied or consumed here, except `complex`, which must outlive the refiner. Throws
-  /// StageError(kNoWallLines) when no line carries surface.
+  /// StageError(kNoWallLines) when no line carries surface. Lines of `kept` stay whatever surface they carry,
+  /// as long as they were.
   LineRefiner(const WallLines& lines, const CellComplex& complex, const std::vector<std::uint8_t>& label,
-              double noise_m, double density, const RefineLinesParams& params);
+              double noise_m, double density, const RefineLinesParams& params,
+              const std::set<std::string>& kept = {});
   ~LineRefiner();
 
   void add(const CloudTile& tile);

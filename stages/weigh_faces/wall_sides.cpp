@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "stages/weigh_faces/plan_walk.h"
+#include "common/cells/plan_walk.h"
 
 namespace roomcut {
 namespace {

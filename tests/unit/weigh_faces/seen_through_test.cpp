@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "stages/weigh_faces/plan_walk.h"
+#include "common/cells/plan_walk.h"
 #include "tests/unit/raycast/room_weights.h"
 #include "tests/unit/weigh_faces/grid_complex.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stages/weigh_faces/plan_walk.h"
+#include "common/cells/plan_walk.h"
 
 #include <limits>
 
