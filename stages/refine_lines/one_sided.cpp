@@ -54,7 +54,7 @@ bool closes(const WallLine& other, const Line2& line, double low, double high, b
   if (distance < kThinnest || distance > kThickest) {
     return false;
   }
-  const auto [a, b] = std::minmax(line.along(other.a), line.along(other.b));
+  const auto [a, b] = std::minmax({line.along(other.a), line.along(other.b)});
   return std::min(b, high) - std::max(a, low) > kOverlap * (high - low);
 }
 
