@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <set>
 
 #include "common/errors/codes.h"
 #include "common/errors/error.h"
@@ -165,6 +166,20 @@ WallLine to_wall_line(const LineCandidate& candidate, const WallCells& cells, st
   return wall;
 }
 
+/// The wall slices of a line that was seen in slices at a roof's steps only: there it is a contour of the
+/// roof, below it stands no wall. Empty for other lines.
+std::optional<std::vector<int>> roof_slices(const LineCandidate& candidate, const WallCells& cells,
+                                            const std::vector<Level>& levels) {
+  std::set<int> slices;
+  for (const std::uint32_t cell : candidate.support.cells) slices.insert(cells.slice[cell]);
+  const bool roof = std::all_of(slices.begin(), slices.end(), [&](int k) {
+    const auto lower = static_cast<std::size_t>(k);
+    return levels[lower].step || levels[lower + 1].step;
+  });
+  if (!roof) return std::nullopt;
+  return std::vector<int>(slices.begin(), slices.end());
+}
+
 [[noreturn]] void no_lines(const WallCells& cells, const DetectLinesParams& params) {
   const auto boundary = std::count(cells.boundary.begin(), cells.boundary.end(), std::uint8_t{1});
   char text[200];
@@ -197,6 +212,7 @@ DetectLinesResult detect_lines(const Slices& slices, const DetectLinesParams& pa
   result.lines.bbox_max = slices.bbox_max.head<2>();
   for (std::size_t i = 0; i < found.size(); ++i) {
     result.lines.lines.push_back(to_wall_line(found[i], cells, i));
+    result.lines.lines.back().levels = roof_slices(found[i], cells, slices.levels);
     for (const std::uint32_t cell : found[i].support.cells) cells.line[cell] = static_cast<std::int32_t>(i);
   }
   return result;

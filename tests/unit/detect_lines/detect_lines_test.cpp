@@ -66,6 +66,45 @@ int spurious(const SyntheticCloud& cloud, const WallLines& found) {
   return count;
 }
 
+TEST(DetectLines, ContoursOfARoofAreLinesOfItsSlicesOnly) {
+  SyntheticCloud cloud(0.004, 600);
+  cloud.horizontal({0, 0}, {8, 9}, 0.0);
+  cloud.surface(
+      {0, 0}, {8, 9}, [](const Vec2& p) { return 6.5 - std::abs(p.y() - 4.5); }, SurfaceClass::kSloped);
+  for (const double y : {0.0, 9.0}) cloud.wall({0, y}, {8, y}, 0, 2);
+  const Slices slices = slices_of(cloud);
+  std::size_t contours = 0;
+  for (const WallLine& line : detect_lines(slices, {}).lines.lines) {
+    const double y = line.centre().y();
+    if (std::abs(y) < 0.02 || std::abs(y - 9) < 0.02) {
+      EXPECT_TRUE(!line.levels || line.levels->front() == 0) << "an outer wall stands below the eaves";
+      continue;
+    }
+    ASSERT_TRUE(line.levels) << y;
+    ++contours;
+    for (const int k : *line.levels) {
+      EXPECT_NEAR(0.5 * (slices.levels[static_cast<std::size_t>(k)].z +
+                         slices.levels[static_cast<std::size_t>(k) + 1].z),
+                  6.5 - std::abs(y - 4.5), 0.3);
+    }
+  }
+  EXPECT_GE(contours, 10U);
+}
+
+TEST(DetectLines, WallsOfTwoStoreysThreeCentimetresApartStayTwoLines) {
+  SyntheticCloud cloud(0.004);
+  cloud.room({0, 0}, {6, 5}, 0, 2.6);
+  cloud.room({0, 0}, {6.03, 5}, 2.9, 5.5);
+  const WallLines found = detect_lines(slices_of(cloud), {}).lines;
+  const auto at = [&](double x) {
+    return std::count_if(found.lines.begin(), found.lines.end(), [&](const WallLine& line) {
+      return std::abs(line.line().distance({x, 2.5})) < 0.006 && std::abs(line.centre().y() - 2.5) < 0.2;
+    });
+  };
+  EXPECT_EQ(at(6.0), 1);
+  EXPECT_EQ(at(6.03), 1);
+}
+
 TEST(DetectLines, EveryWallOfTwelveRoomsIsFoundAndNothingElse) {
   for (const double angle : {0.0, 20.0, 45.0, 77.7}) {
     SyntheticCloud cloud(0.005);
