@@ -18,7 +18,7 @@ generator = $$(command -v ninja > /dev/null && echo "-G Ninja")
 quiet_make = env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL
 pipeline = +@sh stages/pipeline.sh
 
-.PHONY: help deps build test demo run status verify edit-lines diff-lines drop-edit evaluate accuracy bench tidy format ready \
+.PHONY: help deps build test demo run status verify edit-lines diff-lines drop-edit evaluate accuracy accuracy-walls bench tidy format ready \
         $(stages) $(stages:%=rerun-%) $(stages:%=clean-%) $(stages:%=plot-%)
 
 help:
@@ -37,6 +37,7 @@ help:
 	'make report | evaluate TRUTH=truth.off | bench | tidy | format' \
 	'make accuracy                 scores of scenes with known truth, in one table; ONLY="virtual uniform_house_*" some of' \
 	'                              them, BASE=old.json what changed since, OUT=file the JSON (work/accuracy/accuracy.json)' \
+	'make accuracy-walls           errors of walls and heights beside their stated sigmas; ONLY="uniform_3mm …", OUT=file' \
 	'' \
 	'Stages: ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines' \
 	'        (second pass) final_partition final_weigh_faces final_raycast final_graphcut   extract report' \
@@ -84,6 +85,9 @@ $(stages:%=plot-%): ready
 
 accuracy: build
 	@$(quiet_make) python3 tests/accuracy/accuracy.py "$$BUILD"
+
+accuracy-walls: build
+	@$(quiet_make) python3 tests/accuracy/walls.py --build "$$BUILD" $(OUT:%=--json %) $(ONLY:%=--only %)
 
 bench: build
 	@bash tests/bench/bench.sh "$$BUILD"
