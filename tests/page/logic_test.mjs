@@ -9,6 +9,8 @@ const page = (file) => import(pathToFileURL(join(process.env.ROOMCUT_SOURCE, "st
 const { LineDocument, offsetBetween, shifted } = await page("edit/document.js");
 const { fitOf, snapDirection, snapLength, snapOffset } = await page("edit/snap.js");
 const { parseBlock } = await page("data/blocks.js");
+const { Complex } = await page("data/complex.js");
+const { roomUncertainties } = await page("data/uncertainty.js");
 
 const line = (id, a, b, more = {}) => ({
   type: "Feature",
@@ -129,4 +131,40 @@ test("a block is read as it was laid out", () => {
   assert.equal(block.unit, "m");
   assert.deepEqual([...block.x], [1.5, -2]);
   assert.deepEqual([...block.kind], [7, 8, 9]);
+});
+
+test("a room's area, perimeter and volume are as uncertain as its walls let them be", () => {
+  // One room of 4 m by 3 m, 2.5 m high; its four lines known to 1 mm, their directions exactly. The lines run either way.
+  const corners = [[0, 0], [4, 0], [4, 3], [0, 3]];
+  const block = {
+    levels: [0, 2.5],
+    vertices: new Float32Array(corners.flat()),
+    face_offset: new Int32Array([0, 4]),
+    face_vertex: new Int32Array([0, 1, 2, 3]),
+    face_edge: new Int32Array([0, 1, 2, 3]),
+    edges: new Int32Array([0, 1, 0, -1, 0, 1, 2, 0, -1, 1, 3, 2, -1, 0, 2, 3, 0, 0, -1, 3]),
+    line_ids: ["w1", "w2", "w3", "w4"],
+    label: new Uint8Array([1]),
+  };
+  const sides = [[0, 1], [2, 1], [3, 2], [3, 0]];
+  const known = { sigma_offset_m: 0.001, sigma_angle_deg: 0 };
+  const refined = { features: sides.map(([from, to], i) => line(`w${i + 1}`, corners[from], corners[to], known)) };
+  const complex = new Complex(block);
+  const rooms = [{ cells: [0], plan: new Set([0]) }];
+  const [room] = roomUncertainties(complex, rooms, refined);
+  assert.equal(room.perimeter, 14);
+  assert.equal(room.unknown, false);
+  assert.ok(Math.abs(room.area - 0.001 * Math.hypot(4, 4, 3, 3)) < 1e-9);
+  assert.ok(Math.abs(room.volume - 2.5 * room.area) < 1e-9);
+  // A wall that moves out makes the two beside it longer.
+  assert.ok(Math.abs(room.perimeterSigma - 0.001 * 2 * 2) < 1e-9);
+
+  // A wall that turns about its middle leaves the area as it is, one about its end does not.
+  refined.features.forEach(({ properties }) => Object.assign(properties, { sigma_offset_m: 1e-12, sigma_angle_deg: 180 / Math.PI / 1000 }));
+  assert.ok(roomUncertainties(complex, rooms, refined)[0].area < 1e-9);
+  refined.features[0].geometry.coordinates = [[0, 0], [8, 0]];
+  assert.ok(Math.abs(roomUncertainties(complex, rooms, refined)[0].area - 0.001 * 4 * 2) < 1e-9);
+
+  refined.features.pop();
+  assert.equal(roomUncertainties(complex, rooms, refined)[0].unknown, true);
 });

@@ -32,7 +32,7 @@ export function paintEditing(context, view, tool) {
     paintSelected(context, view, fit.line);
   }
   if (tool.drag?.said) {
-    paintWords(context, viewport.toPixels(fit?.line.b ?? tool.drag.from), tool.drag.said);
+    paintWords(context, tool.drag.at, tool.drag.said);
   }
 }
 

@@ -87,6 +87,7 @@ export class EditTool {
     }
     if (this.drag.begun) {
       const point = this.viewport.toPlan(this.viewport.pixelsOf(event));
+      this.drag.at = this.viewport.pixelsOf(event);
       this[{ body: "dragBody", end: "dragEnd", add: "dragNew" }[this.drag.kind]](point, !event.altKey);
       this.onChange();
     }

@@ -82,19 +82,37 @@ export function faceColourings(complex, faces) {
   return list;
 }
 
-/** Colours of the scan's points, 3 bytes each. */
-export function cloudColours(cloud, by) {
-  const count = cloud.xyz.length / 3;
-  const colours = new Uint8Array(3 * count);
-  for (let i = 0; i < count; ++i) {
-    const t = by === "distance" ? (cloud.distance[i] * cloud.distance_step_m) / 0.1 : cloud.xyz[3 * i + 2] / 65535;
-    colours.set(sequential(t), 3 * i);
+/** Ways to show the scan: which points, and what colours them. `keep(i)` and `value(i)` of point i. */
+export function cloudViews(cloud) {
+  const height = (i) => cloud.xyz[3 * i + 2] / 65535;
+  const views = [{ name: "by height", keep: () => true, value: height }];
+  if (cloud.distance.length > 0) {
+    const metres = (i) => cloud.distance[i] * cloud.distance_step_m;
+    views.push(
+      { name: "by distance from the model, 0 … 10 cm", keep: () => true, value: (i) => metres(i) / 0.1 },
+      { name: "what the model leaves out (over 5 cm away)", keep: (i) => metres(i) > 0.05, value: height },
+    );
   }
-  return colours;
+  return views;
 }
 
-export function cloudPositions(cloud) {
-  return Float32Array.from(cloud.xyz, (value, i) => cloud.low[i % 3] + value * cloud.step[i % 3]);
+/** The points of a view: {positions, colours}, 3 numbers each. */
+export function cloudPoints(cloud, view) {
+  const kept = [];
+  for (let i = 0; i < cloud.xyz.length / 3; ++i) {
+    if (view.keep(i)) {
+      kept.push(i);
+    }
+  }
+  const positions = new Float32Array(3 * kept.length);
+  const colours = new Uint8Array(3 * kept.length);
+  kept.forEach((i, k) => {
+    for (let axis = 0; axis < 3; ++axis) {
+      positions[3 * k + axis] = cloud.low[axis] + cloud.xyz[3 * i + axis] * cloud.step[axis];
+    }
+    colours.set(sequential(view.value(i)), 3 * k);
+  });
+  return { positions, colours };
 }
 
 /** Fills an element with a legend. */

@@ -2,7 +2,7 @@
 // The part "Model": the 3D view with its tools.
 
 import { byId, make, number } from "../dom.js";
-import { cloudColours, cloudPositions, drawLegend, faceColourings, modelColourings } from "./colourings.js";
+import { cloudPoints, cloudViews, drawLegend, faceColourings, modelColourings } from "./colourings.js";
 import { ModelScene } from "./scene.js";
 import { faceSurface, modelSurface } from "./surfaces.js";
 
@@ -121,19 +121,14 @@ function cutSlider(run, scene) {
 }
 
 function cloudSelection(run, scene) {
-  const choices = [["off", null], ["by height", "height"]];
-  if (run.cloud.distance.length > 0) {
-    choices.push(["by distance from the model (0 … 10 cm)", "distance"]);
-  }
-  let positions = null;
+  const views = [null, ...cloudViews(run.cloud)];
   return make(
     "label",
     {},
     "Scan",
-    selection("model-cloud", choices.map(([name]) => name), (i) => {
-      const by = choices[i][1];
-      positions ??= by && cloudPositions(run.cloud);
-      scene.showCloud(by ? positions : null, by ? cloudColours(run.cloud, by) : null);
+    selection("model-cloud", views.map((view) => view?.name ?? "off"), (i) => {
+      const { positions, colours } = views[i] ? cloudPoints(run.cloud, views[i]) : { positions: null, colours: null };
+      scene.showCloud(positions, colours);
     }),
   );
 }
