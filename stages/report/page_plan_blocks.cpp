@@ -98,6 +98,8 @@ void add_weights(const FaceWeights& weights, PageBlockBuilder& block) {
 /// the description that the file itself gives, and with the attribute `weight` where there is one.
 void add_evidence(const std::filesystem::path& path, const CellsFile& cells, PageBlockBuilder& block) {
   const H5Reader file = open_for_cells(path, artefacts::kDataTerms, cells);
+  block.add("wall_implied", file.read<float>("wall/implied"));
+  block.add("level_implied", file.read<float>("level/implied"));
   block.facts["evidence"] = Json::array();
   for (const DatasetInfo& info : list_datasets(path, "cell")) {
     if (!info.type.starts_with('f') || info.shape != h5::Shape{cells.complex.cells()}) {

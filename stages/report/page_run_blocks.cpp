@@ -32,7 +32,8 @@ Json levels_of(const Slices& slices) {
                       {"hi", level.hi},
                       {"area_m2", level.area_m2},
                       {"component_m2", level.component_m2},
-                      {"cap", level.cap}});
+                      {"cap", level.cap},
+                      {"step", level.step}});
   }
   return levels;
 }

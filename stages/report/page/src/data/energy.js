@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The energy that graphcut minimised, taken apart for one cell: E = sum of D(label) + mu * sum of (1 - omega) * A over the
-// faces between different labels (stages/graphcut/README.md).
+// The energy that graphcut minimised, taken apart for one cell: E = sum of D(label) + mu * sum of (1 - omega) *
+// (1 - implied) * A over the faces between different labels (stages/graphcut/README.md).
 
 /**
  * The faces of a cell: where, what covers them, and the cell beyond (-1: outside, solid).
- * @returns {{kind: string, index: number, area: number, omega: number, points: number, beyond: number, wall: ?string}[]}
+ * @returns {{kind: string, index: number, area: number, omega: number, implied: number, points: number, beyond: number, wall: ?string}[]}
  */
 export function facesOf(complex, cell) {
   const { block, faces } = complex;
@@ -21,6 +21,7 @@ export function facesOf(complex, cell) {
       wall: complex.wallId(e),
       area: Math.hypot(edge.b[0] - edge.a[0], edge.b[1] - edge.a[1]) * complex.height(layer),
       omega: block.wall_omega[index],
+      implied: block.wall_implied[index],
       points: block.wall_points[index],
       beyond: other < 0 ? -1 : complex.cell(other, layer),
     };
@@ -36,6 +37,7 @@ export function facesOf(complex, cell) {
       wall: null,
       area: complex.areas[face],
       omega: block.level_omega[index],
+      implied: block.level_implied[index],
       points: block.level_points[index],
       beyond: beyond < 0 || beyond >= complex.layers ? -1 : complex.cell(face, beyond),
     });
@@ -45,7 +47,7 @@ export function facesOf(complex, cell) {
 
 /** What a face costs when the labels on its two sides differ [m^3]. */
 export function boundaryCost(face, mu) {
-  return mu * (1 - face.omega) * face.area;
+  return mu * (1 - face.omega) * (1 - face.implied) * face.area;
 }
 
 /** The length mu of the labelling [m]; NaN when the labels do not tell. */

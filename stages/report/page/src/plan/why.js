@@ -77,14 +77,15 @@ function beyondOf(complex, cell) {
     face.wall ?? kPlace[face.kind],
     number(face.area),
     number(face.omega),
+    number(face.implied),
     face.points,
     face.beyond < 0 ? "outside" : block.label[face.beyond] === 1 ? "empty" : "solid",
     number(boundaryCost(face, mu), 3),
   ]);
   return [
     make("h3", { text: "Its faces" }),
-    table(["", "m²", "ω", "points", "beyond", "cost m³"], rows),
-    make("p", { class: "quiet", text: `ω is the share of a face that points cover. A face costs μ (1 − ω) area, μ = ${short(mu)} m, when the two sides have different labels.` }),
+    table(["", "m²", "ω", "implied", "points", "beyond", "m³"], rows),
+    make("p", { class: "quiet", text: `ω is the share of a face that points cover. Implied: the unseen other side of a wall or slab that was seen. A face costs μ (1 − ω) (1 − implied) area, μ = ${short(mu)} m, when its two sides have different labels.` }),
   ];
 }
 
@@ -97,6 +98,7 @@ export function whyWallFace(complex, edge, layer) {
   const index = layer * complex.edges + edge;
   const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
   const omega = block.wall_omega[index];
+  const implied = block.wall_implied[index];
   const [isLeft, isRight] = [complex.isEmpty(left, layer), complex.isEmpty(right, layer)];
   const wall = complex.wallId(edge);
   return [
@@ -106,10 +108,11 @@ export function whyWallFace(complex, edge, layer) {
     }),
     table(["", "value"], [
       ["ω, share covered by points", number(omega, 3)],
+      ["implied by a wall seen from its other side", number(implied, 3)],
       ["points", block.wall_points[index]],
       ["speaks for empty on the left", number(block.wall_left[index], 3)],
       ["speaks for empty on the right", number(block.wall_right[index], 3)],
-      ["cost of a wall here", `${number(boundaryCost({ omega, area: length * complex.height(layer) }, lengthMu(block)), 3)} m³`],
+      ["cost of a wall here", `${number(boundaryCost({ omega, implied, area: length * complex.height(layer) }, lengthMu(block)), 3)} m³`],
     ]),
   ];
 }
