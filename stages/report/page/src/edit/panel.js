@@ -16,6 +16,7 @@ export class EditPanel {
     this.server = server;
     this.document = new LineDocument(geojson);
     this.tool = new EditTool(plan, this.document, () => this.update());
+    this.buttons = {};
     this.build();
     plan.view.overlays.push((context) => {
       if (this.on) {
@@ -31,8 +32,8 @@ export class EditPanel {
   }
 
   button(id, text, title, action) {
-    this[id] = make("button", { type: "button", id: `edit-${id}`, text, title, onclick: action });
-    return this[id];
+    this.buttons[id] = make("button", { type: "button", id: `edit-${id}`, text, title, onclick: action });
+    return this.buttons[id];
   }
 
   build() {
@@ -67,7 +68,7 @@ export class EditPanel {
   show(on) {
     this.on = on;
     this.tools.hidden = !on;
-    this.toggle.setAttribute("aria-pressed", String(on));
+    this.buttons.toggle.setAttribute("aria-pressed", String(on));
     this.plan.tool = on ? this.tool : null;
     if (on) {
       this.plan.view.viewport.canvas.focus();
@@ -86,12 +87,12 @@ export class EditPanel {
     }));
     const line = tool.line();
     for (const name of ["delete", "lock", "move"]) {
-      this[name].disabled = !line;
+      this.buttons[name].disabled = !line;
     }
-    this.lock.textContent = line?.locked ? "Unlock" : "Lock";
-    this.undo.disabled = document.past.length === 0;
-    this.redo.disabled = document.future.length === 0;
-    this.add.setAttribute("aria-pressed", String(tool.adding));
+    this.buttons.lock.textContent = line?.locked ? "Unlock" : "Lock";
+    this.buttons.undo.disabled = document.past.length === 0;
+    this.buttons.redo.disabled = document.future.length === 0;
+    this.buttons.add.setAttribute("aria-pressed", String(tool.adding));
     if (this.on && !this.busy) {
       this.say(this.summary());
     }
