@@ -40,6 +40,13 @@ record() {
   mv -f "$1.new" "$1"
 }
 
+# Copies $2 to $1 only when it differs.
+record_file() {
+  if [ -f "$1" ] && cmp -s "$2" "$1"; then return; fi
+  cat "$2" > "$1.new"
+  mv -f "$1.new" "$1"
+}
+
 find_work_folder() {
   if [ -z "$WORK" ]; then
     [ -n "$SCAN" ] || fail "make $command: no scan given" "say which: make $command SCAN=office.ply (or WORK=work/office)"
@@ -115,14 +122,14 @@ $UNIT"
 record_stations() {
   case $STATIONS in
     '') [ -f inputs/stations.txt ] || : > inputs/stations.txt ;;
-    none) record inputs/stations.txt < /dev/null ;;
+    none) record_file inputs/stations.txt /dev/null ;;
     *)
       [ -f "$STATIONS" ] || {
         echo "error[C01] $STATIONS: there is no such file" >&2
         echo "hint: STATIONS= names a text file with the scanner positions, x y z on each line" >&2
         exit 3
       }
-      record inputs/stations.txt < "$STATIONS" ;;
+      record_file inputs/stations.txt "$STATIONS" ;;
   esac
 }
 
