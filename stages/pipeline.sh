@@ -83,6 +83,8 @@ take_lock() {
   for folder in inputs params stamps logs edits; do [ -d $folder ] || mkdir $folder; done
   exec 9> stamps/.lock
   flock -n 9 || { echo "waiting for another make in $WORK" >&2; flock 9; }
+  # What a make that was killed had not finished writing.
+  rm -rf inputs/*.new params/.new params/.asked.new edits/.*.new
 }
 
 # The scan enters by its bytes. They are read again only when size, time or file changed, and when an earlier run knows their
@@ -152,7 +154,10 @@ record_params() {
   fi
   complete=yes
   for stage in $stages; do [ -f "params/$stage.json" ] || complete=no; done
-  if [ $complete = yes ] && cmp -s params/.asked.new params/.asked; then return; fi
+  if [ $complete = yes ] && cmp -s params/.asked.new params/.asked; then
+    rm -f params/.asked.new
+    return
+  fi
   rm -rf params/.new
   mkdir params/.new
   asked=
