@@ -12,7 +12,7 @@ using Paths = std::vector<std::filesystem::path>;
 
 constexpr const char* kUsage =
     "artefact show|digest|bytes FILE …   artefact input FILE NAME\n"
-    "artefact settle STAMP \"MISSING …\" OUTPUT …   artefact verify STAMP …\n";
+    "artefact verify STAMP …\n";
 
 void show(const std::filesystem::path& path) {
   const InputRecord record = inspect_artefact(path);
@@ -41,9 +41,7 @@ bool print_input(const std::filesystem::path& path, const std::string& name) {
 }
 
 int run(const std::string& command, const Paths& paths) {
-  if (command == "settle" && paths.size() > 2) {
-    settle(paths[0], paths[1].string(), Paths(paths.begin() + 2, paths.end()));
-  } else if (command == "verify") {
+  if (command == "verify") {
     verify(paths);
   } else if (command == "input" && paths.size() == 2) {
     return print_input(paths[0], paths[1].string()) ? 0 : static_cast<int>(ExitCode::kInput);

@@ -3,6 +3,7 @@
 
 #include "common/artefact/h5.h"
 #include "common/artefact/json.h"
+#include "common/artefact/stamp.h"
 #include "common/artefact_tool/commands.h"
 #include "common/errors/codes.h"
 #include "common/wall_lines/wall_lines_io.h"
@@ -70,7 +71,12 @@ void check(const StampEntry& entry, std::vector<Problem>& problems) {
 void verify(const std::vector<fs::path>& stamps) {
   std::vector<Problem> problems;
   for (const fs::path& stamp : stamps) {
-    for (const StampEntry& entry : read_stamp(stamp)) {
+    const std::vector<StampEntry> entries = read_stamp(stamp);
+    if (entries.empty()) {
+      problems.push_back({errors::kArtefactDamaged, stamp.string(), "the stamp names no output",
+                          "delete it and run make: it is left like this when the machine loses power"});
+    }
+    for (const StampEntry& entry : entries) {
       try {
         check(entry, problems);
       } catch (const StageError& error) {
