@@ -27,8 +27,9 @@ class CloudReader {
 
   /// Calls visit(index, tile) once per tile, in parallel on TBB, in no particular order; results must be
   /// combined in an order-free way or by tile index. `done(points)` is called after each tile, for progress.
+  /// With `densest` > 0 the visitor sees tiles thinned to that many points per square metre (thin.h).
   void for_each_tile(const std::function<void(std::size_t, const CloudTile&)>& visit,
-                     const std::function<void(std::uint64_t)>& done = {}) const;
+                     const std::function<void(std::uint64_t)>& done = {}, double densest = 0) const;
 
  private:
   struct State;

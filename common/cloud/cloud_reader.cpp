@@ -10,6 +10,7 @@
 #include "common/artefact/h5.h"
 #include "common/cloud/cloud_io.h"
 #include "common/cloud/cloud_layout.h"
+#include "common/cloud/thin.h"
 #include "common/errors/codes.h"
 
 namespace roomcut {
@@ -131,17 +132,35 @@ void CloudReader::read_tile(std::size_t index, CloudTile& tile) const {
 }
 
 void CloudReader::for_each_tile(const std::function<void(std::size_t, const CloudTile&)>& visit,
-                                const std::function<void(std::uint64_t)>& done) const {
-  tbb::enumerable_thread_specific<CloudTile> tiles_of_threads;
+                                const std::function<void(std::uint64_t)>& done, double densest) const {
+  // Room for the largest tile at once: buffers that grow again and again cost more than the reading.
+  const std::vector<std::uint64_t>& offset = header().tile_offset;
+  std::size_t largest = 0;
+  for (std::size_t i = 0; i + 1 < offset.size(); ++i) {
+    largest = std::max(largest, static_cast<std::size_t>(offset[i + 1] - offset[i]));
+  }
+  tbb::enumerable_thread_specific<CloudTile> tiles_of_threads([largest] {
+    CloudTile tile;
+    for (std::vector<float>* values : {&tile.x, &tile.y, &tile.z, &tile.area}) {
+      values->reserve(largest);
+    }
+    tile.surface.reserve(largest);
+    tile.azimuth.reserve(largest);
+    return tile;
+  });
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, tiles(), 1),
       [&](const tbb::blocked_range<std::size_t>& range) {
         CloudTile& tile = tiles_of_threads.local();
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
           read_tile(i, tile);
+          const std::uint64_t points = tile.size();
+          if (densest > 0) {
+            thin(tile, densest);
+          }
           visit(i, tile);
           if (done) {
-            done(tile.size());
+            done(points);
           }
         }
       },

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "common/cloud/cloud.h"
 #include "stages/weigh_faces/plan_grid.h"
 
 namespace roomcut {
@@ -13,7 +15,8 @@ namespace roomcut {
 struct PlanLine {
   Vec2 normal, direction;
   double d, theta;
-  std::vector<bool> carries;  // per layer: whether the line may carry a wall there
+  std::vector<bool> carries;             // per layer: whether the line may carry a wall there
+  std::array<bool, kAzimuthSteps> fits;  // per azimuth step: whether a wall of that normal may be the line's
   double distance(const Vec2& p) const { return normal.dot(p) - d; }
   double along(const Vec2& p) const { return direction.dot(p); }
 };
@@ -23,7 +26,8 @@ struct PlanLine {
 /// as they go.
 class LineGrid {
  public:
-  LineGrid(const CellComplex& complex, double reach);
+  /// `azimuth`: how far a normal may be off a line's [rad].
+  LineGrid(const CellComplex& complex, double reach, double azimuth);
 
   const PlanLine& line(std::int32_t index) const { return plan_lines_[static_cast<std::size_t>(index)]; }
 

@@ -56,7 +56,7 @@ void body(StageRun& run, const WeighFacesParams& params) {
   }
   Progress progress = run.progress("points", cloud.header().points);
   cloud.for_each_tile([&](std::size_t, const CloudTile& tile) { weigher.add(tile); },
-                      [&](std::uint64_t points) { progress.advance(points); });
+                      [&](std::uint64_t points) { progress.advance(points); }, weigher.tolerances().densest);
   FaceWeights weights = weigher.weigh();
   weights.stations = cloud.header().stations;
   write_weights(run.output("weights-out"), weights, cells, run.provenance());
@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
   WeighFacesParams params;
   StageInfo info;
   info.name = "weigh_faces";
-  info.revision = 3;
+  info.revision = 4;
   info.summary =
       "Measures how far each face of the cell complex is covered by points, and which side of it is empty";
   info.inputs = {{"cells", "50_partition/cells.h5", "Cell complex"},

@@ -28,8 +28,14 @@ struct PlanGrid {
     ny = std::max(1, static_cast<int>(std::ceil((high.y() - low.y()) / cell)));
   }
   std::size_t size() const { return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny); }
-  int column(double x) const { return static_cast<int>(std::floor((x - low.x()) / cell)); }
-  int row(double y) const { return static_cast<int>(std::floor((y - low.y()) / cell)); }
+  int column(double x) const { return floor_to_int((x - low.x()) / cell); }
+  int row(double y) const { return floor_to_int((y - low.y()) / cell); }
+  /// floor() for |x| < 2^31 without the library call that plain x86-64 makes of it; asked several times per
+  /// point.
+  static int floor_to_int(double x) {
+    const auto truncated = static_cast<int>(x);
+    return truncated - (x < truncated ? 1 : 0);
+  }
   bool contains(int ix, int iy) const { return ix >= 0 && iy >= 0 && ix < nx && iy < ny; }
   std::size_t index(int ix, int iy) const {
     return static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(ix);

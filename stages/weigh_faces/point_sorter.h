@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -23,7 +24,8 @@ class PointSorter {
         lines_(lines),
         walls_(walls),
         levels_(levels),
-        inside_(inside) {}
+        inside_(inside),
+        sin_azimuth_(std::sin(tolerances.azimuth)) {}
 
   void add(const Vec3& p, SurfaceClass surface, std::uint8_t azimuth);
 
@@ -39,7 +41,7 @@ class PointSorter {
   };
 
   NearLevel nearest_level(double z) const;
-  std::int32_t wall_of(SurfaceClass surface, double theta) const;
+  std::int32_t wall_of(SurfaceClass surface, std::uint8_t azimuth) const;
   void add_beside_walls(const Vec2& p, std::size_t level);
   void add_sloped(std::size_t piece, const NearLevel& near, std::size_t layer, double z);
   void add_beside_levels(const Vec2& p, double z);
@@ -54,6 +56,7 @@ class PointSorter {
   WallRasters& walls_;
   LevelRasters& levels_;
   SparseCounts& inside_;
+  double sin_azimuth_;  // of the largest angle between parallel lines
   std::vector<Candidate> candidates_;
 };
 

@@ -14,6 +14,7 @@ Tolerances resolve_tolerances(const WeighFacesParams& params, const CloudHeader&
   // small.
   const double tau = params.tau_m.value_or(std::clamp(0.6 * spacing, 0.04, 0.15));
   t.bin = 2 * tau;
+  t.densest = std::max(2000.0, 12 / (t.bin * t.bin));
   t.wall_reach = params.wall_reach_m.value_or(std::max(0.04, std::min(3 * noise, 0.055)));
   t.wall_tight = std::max(0.012, 2.5 * noise);
   t.wall_alone = std::max(0.12, 2.5 * t.wall_reach);

@@ -9,6 +9,7 @@ namespace roomcut {
 /// The distances of this stage, in metres, derived from noise and density (stages/weigh_faces/README.md).
 struct Tolerances {
   double bin;         ///< edge of a coverage bin: 2 tau
+  double densest;     ///< denser parts are thinned to this many points per m²: a dozen per bin or more
   double wall_reach;  ///< largest distance of a wall point from its line
   double
       wall_alone;  ///< a point without a class belongs to a line only if no other passes within this distance
