@@ -87,9 +87,10 @@ std::vector<double> levels_of(const Building& building, double off_m, Draw& draw
 
 std::vector<float> truth_beta(const CellComplex& complex, const Building& building) {
   std::vector<float> beta(complex.cells(), 0.08F);
-  for (std::size_t cell = 0; cell < complex.cells(); ++cell) {
-    const std::size_t layer = cell / complex.faces();
-    const Vec2 p = complex.centroid(cell % complex.faces());
+  const std::size_t faces = complex.faces();
+  for (std::size_t cell = 0; faces > 0 && cell < complex.cells(); ++cell) {
+    const std::size_t layer = cell / faces;
+    const Vec2 p = complex.centroid(cell % faces);
     const double z = 0.5 * (complex.levels[layer] + complex.levels[layer + 1]);
     for (const Prism& prism : building.prisms) {
       if (z > prism.z0 && z < prism.z1 && contains(prism.polygon, p)) beta[cell] = 0.92F;

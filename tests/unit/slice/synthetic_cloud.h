@@ -70,7 +70,7 @@ class SyntheticCloud {
     for (const auto& [a, b] :
          {std::pair{lo, right}, std::pair{right, hi}, std::pair{hi, left}, std::pair{left, lo}}) {
       wall(a, b, floor, ceiling);
-      truth_.push_back({turned(a), turned(b)});
+      truth_.emplace_back(turned(a), turned(b));
     }
   }
   /// Ends of the walls that room() made.
