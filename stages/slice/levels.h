@@ -49,8 +49,8 @@ void add_caps(std::vector<Level>& levels, const HeightSurvey& survey, const std:
 
 /// Adds levels about `step_m` apart between two levels where roofs are: at least 15 m^2, and a fifth of the
 /// upright surface over the building that has no level above it, are sloped, and twice as much as lies level
-/// there. A model of level planes turns a slope into stairs. The slope's bulk, without 1 % at both ends, is cut
-/// into equal steps with a level at the middle of each, none nearer than half a step to another level.
+/// there. A model of level planes turns a slope into stairs. The slope's bulk, without 1 % at both ends, is
+/// cut into equal steps with a level at the middle of each, none nearer than half a step to another level.
 void add_steps(std::vector<Level>& levels, const HeightSurvey& survey, const std::vector<SurfaceCell>& cells,
                double step_m);
 
