@@ -11,7 +11,7 @@ BUILD ?= build
 export SCAN WORK CONFIG BUILD JOBS UP UNIT STATIONS TRUTH QUIET ONLY BASE OUT
 
 stages := ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines \
-          final_partition final_weigh_faces final_raycast final_graphcut extract report
+          final_partition final_weigh_faces final_raycast final_graphcut find_openings extract report
 sources = git ls-files -co --exclude-standard '*.h' '*.cpp'
 generator = $$(command -v ninja > /dev/null && echo "-G Ninja")
 # Tests run make themselves; it must not take itself for a part of this one.
@@ -40,7 +40,7 @@ help:
 	'make accuracy-walls           errors of walls and heights beside their stated sigmas; ONLY="uniform_3mm …", OUT=file' \
 	'' \
 	'Stages: ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines' \
-	'        (second pass) final_partition final_weigh_faces final_raycast final_graphcut   extract report' \
+	'        (second pass) final_partition final_weigh_faces final_raycast final_graphcut   find_openings extract report' \
 	'WORK=folder    instead of work/<name of the scan>      CONFIG=my.yaml  parameters instead of pipeline.yaml' \
 	'UP=y UNIT=mm   how the scan is to be read              STATIONS=file   scanner positions, x y z on each line' \
 	'JOBS=n         threads of a stage; default: all' \

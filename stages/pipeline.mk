@@ -49,6 +49,7 @@ weights  := 55_weigh_faces/weights.h5
 terms    := 60_raycast/data_terms.h5
 labels   := 70_graphcut/labels.h5
 final    := 90_final/cells.h5 90_final/weights.h5 90_final/data_terms.h5 90_final/labels.h5
+openings := 95_find_openings/openings.geojson
 
 $(eval $(call stage,ingest,ingest,$(cloud),inputs/scan.id inputs/scan.options inputs/stations.txt,\
   --scan "$$$$ROOMCUT_SCAN" --up "$$$$ROOMCUT_UP" --unit "$$$$ROOMCUT_UNIT" $$$$(test ! -s inputs/stations.txt || echo --stations inputs/stations.txt)))
@@ -71,7 +72,8 @@ $(eval $(call stage,final_raycast,raycast,90_final/data_terms.h5,90_final/cells.
 $(eval $(call stage,final_graphcut,graphcut,90_final/labels.h5,90_final/cells.h5 90_final/weights.h5 90_final/data_terms.h5,\
   --cells 90_final/cells.h5 --weights 90_final/weights.h5 --terms 90_final/data_terms.h5 --labels-out 90_final/labels.h5))
 
-$(eval $(call stage,extract,extract,model.ply model.obj summary.json,$(final)))
+$(eval $(call stage,find_openings,find_openings,$(openings),90_final/cells.h5 90_final/labels.h5 $(cloud)))
+$(eval $(call stage,extract,extract,model.ply model.obj summary.json,$(final) $(openings)))
 $(eval $(call stage,report,report,report.html,$(cloud) $(slices) $(lines_30) 30_detect_lines/hough.h5 $(lines_40) $(cells) \
   $(weights) $(terms) $(labels) $(lines_80) $(final) model.ply summary.json))
 

@@ -7,7 +7,7 @@ set -eu
 
 # Every process that this script starts costs milliseconds, a run should cost a quarter of a second: builtins where they do.
 root=$(cd "${0%/*}/.." && pwd)
-stages="ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines extract report"
+stages="ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines find_openings extract report"
 : "${SCAN:=}" "${WORK:=}" "${CONFIG:=}" "${BUILD:=$root/build}" "${JOBS:=}" "${UP:=}" "${UNIT:=}" "${STATIONS:=}" "${TRUTH:=}" "${QUIET:=}"
 
 fail() {

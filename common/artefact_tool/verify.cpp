@@ -5,6 +5,7 @@
 #include "common/artefact/json.h"
 #include "common/artefact_tool/commands.h"
 #include "common/errors/codes.h"
+#include "common/openings/openings_io.h"
 #include "common/wall_lines/wall_lines_io.h"
 
 namespace roomcut {
@@ -17,9 +18,13 @@ std::string actual_digest(const fs::path& path, const InputRecord& stated) {
   if (stated.artefact.empty()) {
     return stated.payload_sha256;  // no artefact: this is already the digest of the bytes
   }
-  return stated.artefact == artefacts::kWallLines.name
-             ? wall_lines_payload_sha256(read_wall_lines(path).content)
-             : recompute_payload_sha256(path);
+  if (stated.artefact == artefacts::kWallLines.name) {
+    return wall_lines_payload_sha256(read_wall_lines(path).content);
+  }
+  if (stated.artefact == artefacts::kOpenings.name) {
+    return read_openings(path).payload_sha256;
+  }
+  return recompute_payload_sha256(path);
 }
 
 /// Whether the input that lies there now is the one that `record` names; files outside the work folder are

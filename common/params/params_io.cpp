@@ -105,8 +105,8 @@ YAML::Node parse_yaml(const std::filesystem::path& path) {
 
 const std::vector<std::string>& known_stages() {
   static const std::vector<std::string> kStages{
-      "ingest",   "slice",        "detect_lines", "accept_lines", "partition", "weigh_faces", "raycast",
-      "graphcut", "refine_lines", "extract",      "report",       "evaluate",  "synthesize"};
+      "ingest",   "slice",        "detect_lines",  "accept_lines", "partition", "weigh_faces", "raycast",
+      "graphcut", "refine_lines", "find_openings", "extract",      "report",    "evaluate",    "synthesize"};
   return kStages;
 }
 

@@ -8,6 +8,7 @@
 
 #include "common/errors/codes.h"
 #include "stages/extract/cell_surface.h"
+#include "stages/extract/cut_openings.h"
 
 namespace roomcut {
 
@@ -52,21 +53,43 @@ void measure_unobserved(const CellComplex& complex, const Labels& labels, Model&
   }
 }
 
+std::vector<ModelOpening> list_openings(const std::vector<Passage>& passages, const Rooms& rooms,
+                                        const Storeys& storeys) {
+  std::vector<ModelOpening> list;
+  for (const Passage& passage : passages) {
+    list.push_back({passage.opening, rooms.of_cell[passage.cell_a], rooms.of_cell[passage.cell_b],
+                    storeys.of_cell[passage.cell_a], passage.volume_m3});
+  }
+  return list;
+}
+
 }  // namespace
 
-Model extract_model(const CellComplex& complex, const Labels& labels, const ExtractParams& params) {
-  Model model;
-  model.empty_m3 = empty_volume(complex, labels.label);
-  if (!(model.empty_m3 > 0)) {
+Model extract_model(const CellComplex& complex, const Labels& labels, const std::vector<Opening>& openings,
+                    const ExtractParams& params) {
+  if (!(empty_volume(complex, labels.label) > 0)) {
     throw StageError(errors::kEmptyModel, "", "every cell is solid: there is no room to model",
                      "look at the labels' evidence; a smaller graphcut.mu_m lets smaller spaces survive");
   }
-  const Storeys storeys = find_storeys(complex, labels.label, params.storeys);
-  model.surface = merge_facets(surface_of_labels(complex, labels.label, storeys));
-  model.storeys = measure_storeys(complex, labels, storeys);
-  model.rooms = find_rooms(complex, labels, storeys);
+  // Storeys and rooms are those of the closed walls; then the openings become empty.
+  OpenableComplex cut = cut_openings(complex, labels, openings);
+  Storeys storeys = find_storeys(cut.complex, cut.labels.label, params.storeys);
+  Model model;
+  model.refused = std::move(cut.refused);
+  model.storeys = measure_storeys(cut.complex, cut.labels, storeys);
+  Rooms rooms = find_rooms(cut.complex, cut.labels, storeys);
+  model.openings = list_openings(cut.passages, rooms, storeys);
+  model.rooms = std::move(rooms.spaces);
+  open_passages(cut.passages, cut.labels);
+  for (std::size_t i = 0; i < cut.passages.size(); ++i) {
+    for (const std::size_t cell : cut.passages[i].cells) {
+      storeys.of_cell[cell] = static_cast<std::int16_t>(model.openings[i].storey);
+    }
+  }
+  model.empty_m3 = empty_volume(cut.complex, cut.labels.label);
+  model.surface = merge_facets(surface_of_labels(cut.complex, cut.labels.label, storeys));
   model.areas = measure_areas(model.surface.mesh);
-  measure_unobserved(complex, labels, model);
+  measure_unobserved(cut.complex, cut.labels, model);
   model.check = check_mesh(model.surface.mesh);
   model.fault = model.surface.fault;
   for (const std::string& more :

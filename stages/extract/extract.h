@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "common/cells/cell_complex.h"
 #include "common/mesh/facet_surface.h"
 #include "common/mesh/mesh_check.h"
+#include "common/openings/opening.h"
 #include "stages/extract/rooms.h"
 #include "stages/extract/storeys.h"
 
@@ -21,11 +23,21 @@ struct SurfaceAreas {
   double floor = 0, ceiling = 0, wall = 0;
 };
 
+/// An opening of the model and the two rooms that it joins.
+struct ModelOpening {
+  Opening opening;
+  std::int32_t room_a = -1, room_b = -1;  ///< indices into Model::rooms; equal for an opening within one room
+  int storey = 0;
+  double volume_m3 = 0;
+};
+
 /// The model: the border of the empty cells (paper §2, the result of the labelling), and what it measures.
 struct Model {
   MergedSurface surface;       ///< local metres; normals point out of the empty space
   std::vector<Space> storeys;  ///< ascending
-  std::vector<Space> rooms;    ///< by storey, then by volume
+  std::vector<Space> rooms;    ///< by storey, then by volume; without the openings between them
+  std::vector<ModelOpening> openings;
+  std::vector<std::string> refused;  ///< "o0007: why": openings that do not fit the labels
   SurfaceAreas areas;
   double empty_m3 = 0;  ///< sum of the empty cells
   double unobserved_empty_m3 = 0;
@@ -35,9 +47,10 @@ struct Model {
       fault;  ///< "" or why the mesh must not be used (F1.7: closed, oriented, no self-intersection, volume)
 };
 
-/// Extracts the model. Equal inputs give equal bytes. With wrong labels (surfaces that touch in an edge or a
-/// vertex) the fault is set and the mesh is what could be made. Throws StageError(kEmptyModel) when no cell
-/// is empty.
-Model extract_model(const CellComplex& complex, const Labels& labels, const ExtractParams& params);
+/// Extracts the model, with the given openings cut into its walls. Equal inputs give equal bytes. With wrong
+/// labels (surfaces that touch in an edge or a vertex) the fault is set and the mesh is what could be made.
+/// Throws StageError(kEmptyModel) when no cell is empty.
+Model extract_model(const CellComplex& complex, const Labels& labels, const std::vector<Opening>& openings,
+                    const ExtractParams& params);
 
 }  // namespace roomcut

@@ -2,6 +2,7 @@
 #include "common/cells/cells_io.h"
 #include "common/cli/run_stage.h"
 #include "common/errors/codes.h"
+#include "common/openings/openings_io.h"
 #include "stages/extract/extract.h"
 #include "stages/extract/model_files.h"
 #include "stages/extract/params.h"
@@ -13,12 +14,14 @@ using namespace roomcut;
 StageInfo info() {
   StageInfo stage;
   stage.name = "extract";
-  stage.revision = 1;
+  stage.revision = 2;
   stage.summary = "Turns the labelled cells into a closed model: model.ply, model.obj, summary.json";
   stage.inputs = {{"cells", "90_final/cells.h5", "Cell decomposition"},
                   {"weights", "90_final/weights.h5", "Evidence on the faces"},
                   {"terms", "90_final/data_terms.h5", "Evidence and data term per cell"},
-                  {"labels", "90_final/labels.h5", "Empty and solid cells"}};
+                  {"labels", "90_final/labels.h5", "Empty and solid cells"},
+                  {"openings", "95_find_openings/openings.geojson",
+                   "Doors and passages; absent: every wall stays closed", true}};
   stage.outputs = {{"ply", "model.ply", "Triangles, with kind, storey and region"},
                    {"obj", "model.obj", "Polygons, grouped per storey and kind"},
                    {"summary", "summary.json", "Storeys, rooms, areas, volumes, checks"}};
@@ -35,7 +38,11 @@ void body(StageRun& run, const ExtractParams& params) {
   read_weights(run.input("weights"), cells);  // refuses files that do not belong together
   read_data_terms(run.input("terms"), cells);
   const Labels labels = read_labels(run.input("labels"), cells);
-  const Model model = extract_model(cells.complex, labels, params);
+  std::vector<Opening> openings;
+  if (run.has_input("openings")) {
+    openings = read_openings(run.input("openings"), cells.payload_sha256).content.openings;
+  }
+  const Model model = extract_model(cells.complex, labels, openings, params);
   const std::filesystem::path rejected = rejected_path(run.output("ply"));
   if (!model.fault.empty()) {
     write_model_ply(rejected, model, cells.complex.frame);
@@ -50,6 +57,10 @@ void body(StageRun& run, const ExtractParams& params) {
   std::filesystem::remove(rejected);
   run.count("storeys", static_cast<double>(model.storeys.size()));
   run.count("rooms", static_cast<double>(model.rooms.size()));
+  run.count("openings", static_cast<double>(model.openings.size()));
+  for (const std::string& refused : model.refused) {
+    run.warn("opening " + refused + "; it stays closed");
+  }
   run.count("volume", model.empty_m3, "m^3");
   run.count("triangles", static_cast<double>(model.surface.mesh.triangles.size()));
   run.count("surfaces", static_cast<double>(model.surface.regions.size()));

@@ -107,11 +107,25 @@ std::vector<Space> measure(const CellComplex& complex, const Labels& labels, con
 
 }  // namespace
 
-std::vector<Space> find_rooms(const CellComplex& complex, const Labels& labels, const Storeys& storeys) {
-  std::vector<Space> rooms = measure(complex, labels, storeys, connect(complex, labels, storeys));
-  std::stable_sort(rooms.begin(), rooms.end(), [](const Space& a, const Space& b) {
+Rooms find_rooms(const CellComplex& complex, const Labels& labels, const Storeys& storeys) {
+  const Groups groups = connect(complex, labels, storeys);
+  const std::vector<Space> spaces = measure(complex, labels, storeys, groups);
+  std::vector<std::int32_t> order(spaces.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::int32_t i, std::int32_t k) {
+    const Space& a = spaces[static_cast<std::size_t>(i)];
+    const Space& b = spaces[static_cast<std::size_t>(k)];
     return a.storey != b.storey ? a.storey < b.storey : a.volume_m3 > b.volume_m3;
   });
+  Rooms rooms;
+  std::vector<std::int32_t> room_of(spaces.size());
+  for (const std::int32_t group : order) {
+    room_of[static_cast<std::size_t>(group)] = static_cast<std::int32_t>(rooms.spaces.size());
+    rooms.spaces.push_back(spaces[static_cast<std::size_t>(group)]);
+  }
+  for (const std::int32_t group : groups.of_cell) {
+    rooms.of_cell.push_back(group < 0 ? -1 : room_of[static_cast<std::size_t>(group)]);
+  }
   return rooms;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "common/cells/cell_complex.h"
@@ -20,9 +21,14 @@ struct Space {
   double height() const { return area_m2 > 0 ? volume_m3 / area_m2 : 0; }  ///< mean clear height [m]
 };
 
-/// The connected pieces of empty space within a storey (through faces, not edges), sorted by storey, then by
-/// volume, largest first. Rooms joined by an open doorway in the model are one piece.
-std::vector<Space> find_rooms(const CellComplex& complex, const Labels& labels, const Storeys& storeys);
+struct Rooms {
+  std::vector<Space> spaces;          ///< by storey, then by volume, largest first
+  std::vector<std::int32_t> of_cell;  ///< index into spaces; -1 = solid
+};
+
+/// The connected pieces of empty space within a storey (through faces, not edges). On labels in which doors
+/// are still closed rooms stay apart; rooms joined by a gap of the walls themselves are one piece.
+Rooms find_rooms(const CellComplex& complex, const Labels& labels, const Storeys& storeys);
 
 /// Each storey as a whole.
 std::vector<Space> measure_storeys(const CellComplex& complex, const Labels& labels, const Storeys& storeys);

@@ -17,6 +17,20 @@ Json space_json(const Space& space, const Frame& frame) {
           {"unobserved_m3", space.unobserved_m3}};
 }
 
+Json opening_json(const ModelOpening& item, const Frame& frame) {
+  const Opening& opening = item.opening;
+  const Vec2 middle = 0.5 * (opening.jamb_a + opening.jamb_b);
+  return {{"opening_id", opening.id},
+          {"storey", item.storey},
+          {"rooms", {item.room_a, item.room_b}},
+          {"centre_m", {middle.x() + frame.origin[0], middle.y() + frame.origin[1]}},
+          {"width_m", opening.width()},
+          {"height_m", opening.height()},
+          {"sill_z_m", opening.sill_z + frame.origin[2]},
+          {"thickness_m", opening.thickness_m},
+          {"volume_m3", item.volume_m3}};
+}
+
 Json check_json(const Model& model) {
   const MeshCheck& check = model.check;
   return {{"closed", check.closed()},
@@ -50,6 +64,10 @@ Json summary_json(const Model& model, const CellComplex& complex, const Labels& 
                         space.centre.y() + complex.frame.origin[1]};
     rooms.push_back(std::move(room));
   }
+  Json openings = Json::array();
+  for (const ModelOpening& opening : model.openings) {
+    openings.push_back(opening_json(opening, complex.frame));
+  }
   const double area = std::accumulate(model.storeys.begin(), model.storeys.end(), 0.0,
                                       [](double sum, const Space& storey) { return sum + storey.area_m2; });
   std::size_t polygons = 0;
@@ -59,6 +77,7 @@ Json summary_json(const Model& model, const CellComplex& complex, const Labels& 
   return {
       {"storeys", storeys},
       {"rooms", rooms},
+      {"openings", openings},
       {"totals",
        {{"area_m2", area},
         {"volume_m3", model.empty_m3},

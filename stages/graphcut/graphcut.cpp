@@ -5,10 +5,10 @@
 #include <string>
 
 #include "common/cells/interfaces.h"
+#include "common/cells/manifold_check.h"
 #include "common/errors/codes.h"
 #include "stages/graphcut/energy.h"
 #include "stages/graphcut/label_repair.h"
-#include "stages/graphcut/manifold_check.h"
 #include "stages/graphcut/max_flow.h"
 
 namespace roomcut {

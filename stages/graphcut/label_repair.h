@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/cells/manifold_check.h"
 #include "stages/graphcut/energy.h"
-#include "stages/graphcut/manifold_check.h"
 
 namespace roomcut {
 

@@ -6,7 +6,7 @@ import subprocess
 
 # Stages whose processor time counts: all that the model needs.
 STAGES = ("ingest", "slice", "detect_lines", "accept_lines", "partition", "weigh_faces", "raycast", "graphcut", "refine_lines",
-          "final_partition", "final_weigh_faces", "final_raycast", "final_graphcut", "extract")
+          "final_partition", "final_weigh_faces", "final_raycast", "final_graphcut", "find_openings", "extract")
 VOLUME_TOLERANCE = 1e-6  # relative: rounding of coordinates, far below any cell
 OUTER = ("MAKEFLAGS", "MFLAGS", "MAKELEVEL", "SCAN", "WORK", "CONFIG", "JOBS", "UP", "UNIT", "STATIONS", "TRUTH", "QUIET")
 

@@ -23,7 +23,7 @@ for points in "$@"; do
   make -C "$SOURCE" run SCAN="$place/scan.ply" WORK="$place/work" BUILD="$BUILD" QUIET=1 > /dev/null
   end=$(date +%s%N)
   for stage in ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines final_partition \
-               final_weigh_faces final_raycast final_graphcut extract report; do
+               final_weigh_faces final_raycast final_graphcut find_openings extract report; do
     log=$place/work/logs/$stage.json
     echo "$points,$stage,$(value wall_s "$log"),$(value cpu_s "$log"),$(value peak_memory_mb "$log")"
   done

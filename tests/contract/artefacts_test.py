@@ -78,6 +78,7 @@ class Artefacts(unittest.TestCase):
         pairs = [(path, "wall_lines") for path in self.files("wall_lines.geojson")]
         pairs += [(os.path.join(self.work, "summary.json"), "summary"),
                   (os.path.join(self.work, "evaluate", "scores.json"), "scores")]
+        pairs.append((os.path.join(self.work, "95_find_openings", "openings.geojson"), "openings"))
         scenes = os.path.join(SOURCE, "tests/data/scenes")
         pairs += [(os.path.join(scenes, name), "scene") for name in sorted(os.listdir(scenes)) if name.endswith(".json")]
         for path, kind in pairs:

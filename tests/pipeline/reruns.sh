@@ -184,7 +184,7 @@ check "… and the file made again is in order" mk verify
 mark
 mk status
 check "status changes nothing" ran_exactly ""
-[ "$(grep -c 'up to date$' "$output")" -eq 15 ] && ok "status: all up to date" || not_ok "status: all up to date" "$(cat "$output")"
+[ "$(grep -c 'up to date$' "$output")" -eq 16 ] && ok "status: all up to date" || not_ok "status: all up to date" "$(cat "$output")"
 printf 'raycast:\n  nonsense: 1\nraycasts:\n' > "$config"
 mk run && not_ok "wrong parameters stop the run" || ok "wrong parameters stop the run"
 if [ "$(grep -c 'error\[U03\]' "$output")" -eq 2 ] && grep -q "pipeline.yaml:2: raycast.nonsense" "$output"; then

@@ -38,6 +38,7 @@ step partition --lines 80_refine_lines/wall_lines.geojson --cells-out 90_final/c
 step weigh_faces --cells 90_final/cells.h5 --weights-out 90_final/weights.h5
 step raycast --cells 90_final/cells.h5 --weights 90_final/weights.h5 --terms-out 90_final/data_terms.h5
 step graphcut --cells 90_final/cells.h5 --weights 90_final/weights.h5 --terms 90_final/data_terms.h5 --labels-out 90_final/labels.h5
+step find_openings
 step extract
 digests "$hand" > "$place/now"
 grep -v report.html "$place/first" > "$place/without_report"

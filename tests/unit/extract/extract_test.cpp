@@ -19,7 +19,7 @@ bool within(const Vec2& p, double x0, double x1, double y0, double y1) {
 }
 
 Model extract(const CellComplex& complex, const Labels& labels) {
-  return extract_model(complex, labels, {});
+  return extract_model(complex, labels, {}, {});
 }
 
 void expect_sound(const Model& model) {

@@ -105,7 +105,7 @@ TEST(Extract, TwoHundredRandomLabelingsAreClosedAndFreeOfIntersections) {
         test::label_where(complex, [&](const Vec2&, double) { return draw() < 0.02 + 0.1 * (seed % 5); });
     labels.label[complex.cell(complex.faces() / 2, 2)] = 1;
     make_manifold(complex, labels.label);
-    const Model model = extract_model(complex, labels, {});
+    const Model model = extract_model(complex, labels, {}, {});
     ASSERT_EQ(model.fault, "") << "seed " << seed;
     ASSERT_TRUE(model.check.valid()) << "seed " << seed << ": " << describe_faults(model.check);
     eulers.insert(model.check.euler);

@@ -35,7 +35,7 @@ TEST(Storeys, FloorsOfOneStoreyMayLieAtDifferentHeights) {
   ASSERT_EQ(storeys.floor_z.size(), 2U);
   EXPECT_DOUBLE_EQ(storeys.floor_z[0], 0.15);  // two of the three bays
   EXPECT_DOUBLE_EQ(storeys.floor_z[1], 3.1);
-  const auto rooms = find_rooms(r.complex, r.labels, storeys);
+  const auto rooms = find_rooms(r.complex, r.labels, storeys).spaces;
   ASSERT_EQ(rooms.size(), 6U);
   EXPECT_EQ(rooms[2].storey, 0);
   EXPECT_EQ(rooms[3].storey, 1);
@@ -75,7 +75,7 @@ TEST(Storeys, RoomsAndStoreysAddUpToTheEmptyVolume) {
   r.labels.unobserved.assign(r.complex.cells(), 1);
   const Storeys storeys = find_storeys(r.complex, r.labels.label, {});
   double rooms = 0, levels = 0, unobserved = 0;
-  for (const Space& room : find_rooms(r.complex, r.labels, storeys)) {
+  for (const Space& room : find_rooms(r.complex, r.labels, storeys).spaces) {
     rooms += room.volume_m3;
     unobserved += room.unobserved_m3;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stages/graphcut/manifold_check.h"
+#include "common/cells/manifold_check.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/openings/openings_io.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+
+#include "common/artefact/artefact_check.h"
+#include "common/artefact/atomic_file.h"
+#include "common/artefact/json.h"
+#include "common/artefact/sha256.h"
+#include "common/errors/codes.h"
+
+// The page of this artefact is schemas/openings.md.
+
+namespace roomcut {
+
+namespace {
+
+constexpr const char* kMember = "roomcut";
+/// GDAL, and with it QGIS, takes this name for a local system in metres and does not reproject.
+constexpr const char* kLocalCrs = "LOCAL_CS[\"scan frame (metres)\",UNIT[\"metre\",1]]";
+constexpr const char* kRemedy = "make it again: rerun find_openings";
+
+/// Six decimals whatever the locale.
+std::string fixed(double value) {
+  if (!std::isfinite(value)) {
+    throw std::logic_error("openings: a value is not finite");
+  }
+  std::array<char, 400> buffer{};
+  const auto end =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed, 6).ptr;
+  return {buffer.data(), end};
+}
+
+std::string proof_text(const OpeningProof& proof) {
+  return R"({"points": )" + std::to_string(proof.points) + R"(, "spread": )" + fixed(proof.spread) +
+         R"(, "sigma_m": )" + fixed(proof.sigma_m) + "}";
+}
+
+std::string feature_text(const Opening& opening) {
+  const std::string id = Json(opening.id).dump();
+  return R"({"type": "Feature", "id": )" + id + R"(, "properties": {"opening_id": )" + id + R"(, "walls": )" +
+         Json({opening.wall_a, opening.wall_b}).dump() + R"(, "thickness_m": )" + fixed(opening.thickness_m) +
+         R"(, "width_m": )" + fixed(opening.width()) + R"(, "sill_z_m": )" + fixed(opening.sill_z) +
+         R"(, "head_z_m": )" + fixed(opening.head_z) + R"(, "jamb_a": )" + proof_text(opening.proof_a) +
+         R"(, "jamb_b": )" + proof_text(opening.proof_b) + R"(, "head": )" + proof_text(opening.proof_head) +
+         R"(}, "geometry": {"type": "LineString", "coordinates": [[)" + fixed(opening.jamb_a.x()) + ", " +
+         fixed(opening.jamb_a.y()) + "], [" + fixed(opening.jamb_b.x()) + ", " + fixed(opening.jamb_b.y()) +
+         "]]}}";
+}
+
+std::string features_text(const Openings& openings) {
+  std::string text;
+  for (const Opening& opening : openings.openings) {
+    text += (text.empty() ? "" : ",\n") + feature_text(opening);
+  }
+  return text;
+}
+
+double finite(const Json& value) {
+  const double number = value.get<double>();
+  if (!std::isfinite(number)) {
+    throw std::invalid_argument("a number is not finite");
+  }
+  return number;
+}
+
+OpeningProof proof_from(const Json& value) {
+  return {value.at("points").get<std::uint32_t>(), finite(value.at("spread")), finite(value.at("sigma_m"))};
+}
+
+Opening opening_from(const Json& feature) {
+  const Json& geometry = feature.at("geometry");
+  const Json& properties = feature.at("properties");
+  if (geometry.at("type") != "LineString" || geometry.at("coordinates").size() != 2) {
+    throw std::invalid_argument("the geometry is no LineString of two points");
+  }
+  const auto point = [&](std::size_t i) {
+    const Json& p = geometry.at("coordinates").at(i);
+    return Vec2(finite(p.at(0)), finite(p.at(1)));
+  };
+  Opening opening;
+  opening.id = properties.at("opening_id").get<std::string>();
+  opening.wall_a = properties.at("walls").at(0).get<std::string>();
+  opening.wall_b = properties.at("walls").at(1).get<std::string>();
+  opening.jamb_a = point(0);
+  opening.jamb_b = point(1);
+  opening.thickness_m = finite(properties.at("thickness_m"));
+  opening.sill_z = finite(properties.at("sill_z_m"));
+  opening.head_z = finite(properties.at("head_z_m"));
+  opening.proof_a = proof_from(properties.at("jamb_a"));
+  opening.proof_b = proof_from(properties.at("jamb_b"));
+  opening.proof_head = proof_from(properties.at("head"));
+  if (opening.width() <= 0 || opening.height() <= 0) {
+    throw std::invalid_argument("the opening has no width or no height");
+  }
+  return opening;
+}
+
+std::vector<Opening> openings_from(const Json& features) {
+  std::vector<Opening> openings;
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    try {
+      openings.push_back(opening_from(features.at(i)));
+    } catch (const std::exception& error) {
+      throw std::invalid_argument("features[" + std::to_string(i) + "]: " + error.what());
+    }
+  }
+  return openings;
+}
+
+std::string payload_of(const Openings& normalised) {
+  return sha256_hex(version_text(artefacts::kOpenings) + "\n" + canonical_json(to_json(normalised.frame)) +
+                    "\n" + normalised.cells_payload_sha256 + "\n" + features_text(normalised));
+}
+
+}  // namespace
+
+OpeningsFile read_openings(const std::filesystem::path& path) {
+  OpeningsFile file;
+  try {
+    const Json document = Json::parse(read_text_file(path));
+    const Json& member = document.at(kMember);
+    check_type_and_version(path, member.at("artefact").get<std::string>(),
+                           member.at("schema_version").get<std::string>(), artefacts::kOpenings);
+    file.content.frame = frame_from_json(member.at("frame"));
+    file.content.cells_payload_sha256 = member.at("cells_payload_sha256").get<std::string>();
+    file.content.openings = openings_from(document.at("features"));
+  } catch (const Json::exception& error) {
+    throw StageError(errors::kArtefactDamaged, path.string(),
+                     std::string("not an openings artefact: ") + error.what(), kRemedy);
+  } catch (const std::invalid_argument& error) {
+    throw StageError(errors::kArtefactDamaged, path.string(), error.what(), kRemedy);
+  }
+  file.payload_sha256 = payload_of(normalised_openings(file.content));
+  return file;
+}
+
+OpeningsFile read_openings(const std::filesystem::path& path, const std::string& cells_payload_sha256) {
+  OpeningsFile file = read_openings(path);
+  if (file.content.cells_payload_sha256 != cells_payload_sha256) {
+    throw StageError(errors::kArtefactMismatch, path.string(), "these openings were found in other cells",
+                     "rerun find_openings");
+  }
+  return file;
+}
+
+bool write_openings(const std::filesystem::path& path, const Openings& openings,
+                    const Provenance& provenance) {
+  const Openings normalised = normalised_openings(openings);
+  const std::string digest = payload_of(normalised);
+  Json made = to_json(provenance);
+  made["payload_sha256"] = digest;
+  const std::string text =
+      std::string("{\n\"type\": \"FeatureCollection\",\n\"name\": \"openings\",\n") +
+      "\"crs\": {\"type\": \"name\", \"properties\": {\"name\": " + Json(kLocalCrs).dump() + "}},\n\"" +
+      kMember + "\": {\n\"artefact\": \"openings\",\n\"schema_version\": " +
+      Json(version_text(artefacts::kOpenings)).dump() +
+      ",\n\"length_unit\": \"m\",\n\"frame\": " + canonical_json(to_json(normalised.frame)) +
+      ",\n\"cells_payload_sha256\": " + Json(normalised.cells_payload_sha256).dump() +
+      ",\n\"provenance\": " + canonical_json(made) + "\n},\n\"features\": [\n" + features_text(normalised) +
+      "\n]\n}\n";
+  return publish_json(path, text, digest);
+}
+
+}  // namespace roomcut

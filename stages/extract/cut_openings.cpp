@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/extract/cut_openings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <tuple>
+
+#include "common/cells/interfaces.h"
+#include "common/cells/manifold_check.h"
+#include "stages/extract/plan_cutter.h"
+
+namespace roomcut {
+
+namespace {
+
+constexpr auto kEmpty = static_cast<std::uint8_t>(Label::kEmpty);
+constexpr auto kSolid = static_cast<std::uint8_t>(Label::kSolid);
+
+std::optional<std::int32_t> line_index(const CellComplex& complex, const std::string& wall_id) {
+  for (std::size_t i = 0; i < complex.lines.size(); ++i) {
+    if (complex.lines[i].wall_id == wall_id) {
+      return static_cast<std::int32_t>(i);
+    }
+  }
+  return std::nullopt;
+}
+
+/// The level nearest to z when it is within kPlanSnap_m, else none.
+std::optional<std::size_t> level_at(const std::vector<double>& levels, double z) {
+  const auto above = std::lower_bound(levels.begin(), levels.end(), z - kPlanSnap_m);
+  if (above != levels.end() && *above <= z + kPlanSnap_m) {
+    return static_cast<std::size_t>(above - levels.begin());
+  }
+  return std::nullopt;
+}
+
+/// Adds sills and heads as levels. Returns the old layer of every new one.
+std::vector<std::size_t> add_levels(CellComplex& complex, const std::vector<Opening>& openings) {
+  const std::vector<double> old = complex.levels;
+  for (const Opening& opening : openings) {
+    for (const double z : {opening.sill_z, opening.head_z}) {
+      if (z > old.front() && z < old.back() && !level_at(complex.levels, z)) {
+        complex.levels.insert(std::upper_bound(complex.levels.begin(), complex.levels.end(), z), z);
+      }
+    }
+  }
+  std::vector<std::size_t> layer_of;
+  for (std::size_t k = 0; k + 1 < complex.levels.size(); ++k) {
+    const auto above = std::upper_bound(old.begin(), old.end(), complex.levels[k]);
+    layer_of.push_back(static_cast<std::size_t>(above - old.begin()) - 1);
+  }
+  return layer_of;
+}
+
+struct Jamb {
+  Line2 line;
+  double t0, t1;  // where it meets the wall's two faces, ascending
+};
+
+/// The jamb through `at`, across the opening, from face to face of the wall. None where they are not across.
+std::optional<Jamb> jamb_of(const Opening& opening, const Vec2& at, const Line2& a, const Line2& b) {
+  const Vec2 along = (opening.jamb_b - opening.jamb_a).normalized();
+  const Vec2 across(-along.y(), along.x());
+  const auto foot = [&](const Line2& face) -> Vec2 {
+    return at - face.distance(at) / face.normal().dot(across) * across;
+  };
+  if (std::abs(a.normal().dot(across)) < 0.5 || std::abs(b.normal().dot(across)) < 0.5 ||
+      (foot(a) - foot(b)).norm() < 10 * kPlanSnap_m) {
+    return std::nullopt;
+  }
+  Jamb jamb{line_through(foot(a), foot(b)), 0, 0};
+  std::tie(jamb.t0, jamb.t1) = std::minmax({jamb.line.along(foot(a)), jamb.line.along(foot(b))});
+  return jamb;
+}
+
+std::vector<std::vector<std::int32_t>> edges_of_faces(const CellComplex& complex) {
+  std::vector<std::vector<std::int32_t>> edges(complex.faces());
+  for (std::size_t f = 0; f < complex.faces(); ++f) {
+    for (auto i = complex.face_offset[f]; i < complex.face_offset[f + 1]; ++i) {
+      edges[f].push_back(complex.face_edge[static_cast<std::size_t>(i)]);
+    }
+  }
+  return edges;
+}
+
+/// Tries the openings on the refined complex.
+class Opener {
+ public:
+  Opener(const CellComplex& complex, const Labels& closed)
+      : complex_(complex), label_(closed.label), edges_(edges_of_faces(complex)), check_(complex) {}
+
+  /// Opens it when it fits; else says why not.
+  std::string try_open(const Opening& opening, std::int32_t middle_face, Passage& passage) {
+    const auto a = line_index(complex_, opening.wall_a);
+    const auto b = line_index(complex_, opening.wall_b);
+    const auto sill = level_at(complex_.levels, opening.sill_z);
+    const auto head = level_at(complex_.levels, opening.head_z);
+    if (!a || !b || !sill || !head || *sill >= *head || middle_face < 0) {
+      return "it lies in no wall";
+    }
+    passage.opening = opening;
+    std::set<std::int32_t> faces{middle_face};
+    std::vector<std::int32_t> open{middle_face};
+    bool side_a = false;
+    bool side_b = false;
+    while (!open.empty()) {
+      const std::int32_t face = open.back();
+      open.pop_back();
+      for (const std::int32_t e : edges_[static_cast<std::size_t>(face)]) {
+        const CellComplex::Edge& edge = complex_.edges[static_cast<std::size_t>(e)];
+        const std::int32_t other = edge.left == face ? edge.right : edge.left;
+        if (other < 0 || edge.line < 0) {
+          return "it reaches the bounding box";
+        }
+        const bool face_a = edge.line == *a;
+        if (face_a || edge.line == *b) {
+          if (!all(other, *sill, *head, kEmpty)) {
+            return "there is no room on one side";
+          }
+          (face_a ? side_a : side_b) = true;
+          (face_a ? passage.cell_a : passage.cell_b) = complex_.cell(static_cast<std::size_t>(other), *sill);
+        } else if (lies_on_jamb(opening, edge)) {
+          if (!all(other, *sill, *head, kSolid)) {
+            return "the wall does not go on beside a jamb";
+          }
+        } else if (faces.insert(other).second) {
+          if (!inside(opening, complex_.centroid(static_cast<std::size_t>(other)))) {
+            return "the wall's faces do not bound it";
+          }
+          open.push_back(other);
+        }
+      }
+    }
+    if (!side_a || !side_b) {
+      return "it does not reach through the wall";
+    }
+    return fill(faces, *sill, *head, passage);
+  }
+
+ private:
+  bool all(std::int32_t face, std::size_t sill, std::size_t head, std::uint8_t label) const {
+    for (std::size_t k = sill; k < head; ++k) {
+      if (label_[complex_.cell(static_cast<std::size_t>(face), k)] != label) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// Whether p lies between the jambs and not further from their middle line than the wall may be thick.
+  static bool inside(const Opening& opening, const Vec2& p) {
+    const Vec2 along = (opening.jamb_b - opening.jamb_a).normalized();
+    const double t = along.dot(p - opening.jamb_a);
+    const double off = (p - opening.jamb_a - t * along).norm();
+    return t > 0 && t < opening.width() && off <= opening.thickness_m;
+  }
+
+  /// Both ends of the edge on the plane of one jamb: the jamb's own cut, or an edge that was there before.
+  bool lies_on_jamb(const Opening& opening, const CellComplex::Edge& edge) const {
+    const Vec2 along = (opening.jamb_b - opening.jamb_a).normalized();
+    const auto near = [&](const Vec2& jamb) {
+      const double a = along.dot(complex_.vertices[static_cast<std::size_t>(edge.v0)] - jamb);
+      const double b = along.dot(complex_.vertices[static_cast<std::size_t>(edge.v1)] - jamb);
+      return std::max(std::abs(a), std::abs(b)) <= 2 * kPlanSnap_m;
+    };
+    return near(opening.jamb_a) || near(opening.jamb_b);
+  }
+
+  std::string fill(const std::set<std::int32_t>& faces, std::size_t sill, std::size_t head,
+                   Passage& passage) {
+    for (const std::int32_t face : faces) {
+      if (!all(face, sill, head, kSolid)) {
+        return "the wall is not solid there";
+      }
+      for (std::size_t k = sill; k < head; ++k) {
+        passage.cells.push_back(complex_.cell(static_cast<std::size_t>(face), k));
+        passage.volume_m3 += complex_.area(static_cast<std::size_t>(face)) * complex_.height(k);
+      }
+    }
+    for (const std::size_t cell : passage.cells) {
+      label_[cell] = kEmpty;
+    }
+    if (!is_manifold(faces, sill, head)) {
+      for (const std::size_t cell : passage.cells) {
+        label_[cell] = kSolid;
+      }
+      return "surfaces would touch in an edge or a corner";
+    }
+    return "";
+  }
+
+  bool is_manifold(const std::set<std::int32_t>& faces, std::size_t sill, std::size_t head) const {
+    for (const std::int32_t face : faces) {
+      const auto f = static_cast<std::size_t>(face);
+      for (auto i = complex_.face_offset[f]; i < complex_.face_offset[f + 1]; ++i) {
+        for (std::size_t level = sill; level <= head; ++level) {
+          if (!check_.is_manifold(
+                  {static_cast<std::int32_t>(level), complex_.face_vertex[static_cast<std::size_t>(i)]},
+                  label_)) {
+            return false;
+          }
+        }
+      }
+    }
+    return true;
+  }
+
+  const CellComplex& complex_;
+  std::vector<std::uint8_t> label_;
+  std::vector<std::vector<std::int32_t>> edges_;
+  ManifoldCheck check_;
+};
+
+Labels inherited(const Labels& labels, const CellComplex& old, const CellComplex& refined,
+                 const std::vector<std::int32_t>& parent, const std::vector<std::size_t>& layer_of) {
+  Labels result = labels;
+  result.label.resize(refined.cells());
+  result.unobserved.resize(refined.cells());
+  result.margin_m3.clear();
+  for (std::size_t k = 0; k < refined.layers(); ++k) {
+    for (std::size_t f = 0; f < refined.faces(); ++f) {
+      const std::size_t from = old.cell(static_cast<std::size_t>(parent[f]), layer_of[k]);
+      result.label[refined.cell(f, k)] = labels.label[from];
+      result.unobserved[refined.cell(f, k)] = labels.unobserved[from];
+    }
+  }
+  return result;
+}
+
+void cut_jambs(PlanCutter& cutter, const CellComplex& complex, const std::vector<Opening>& openings) {
+  for (const Opening& opening : openings) {
+    const auto a = line_index(complex, opening.wall_a);
+    const auto b = line_index(complex, opening.wall_b);
+    if (!a || !b) {
+      continue;
+    }
+    const Line2& face_a = complex.lines[static_cast<std::size_t>(*a)].line;
+    const Line2& face_b = complex.lines[static_cast<std::size_t>(*b)].line;
+    const auto first = jamb_of(opening, opening.jamb_a, face_a, face_b);
+    const auto second = jamb_of(opening, opening.jamb_b, face_a, face_b);
+    if (first && second) {
+      cutter.cut(first->line, first->t0, first->t1, opening.id + ".a");
+      cutter.cut(second->line, second->t0, second->t1, opening.id + ".b");
+    }
+  }
+}
+
+}  // namespace
+
+OpenableComplex cut_openings(const CellComplex& complex, const Labels& labels,
+                             const std::vector<Opening>& openings) {
+  if (openings.empty()) {
+    return {complex, labels, {}, {}};
+  }
+  PlanCutter cutter(complex);
+  cut_jambs(cutter, complex, openings);
+  std::vector<std::int32_t> parent;
+  OpenableComplex result{cutter.result(parent), {}, {}, {}};
+  const std::vector<std::size_t> layer_of = add_levels(result.complex, openings);
+  result.labels = inherited(labels, complex, result.complex, parent, layer_of);
+  Opener opener(result.complex, result.labels);
+  for (const Opening& opening : openings) {
+    Passage passage;
+    const std::string why =
+        opener.try_open(opening, cutter.locate(0.5 * (opening.jamb_a + opening.jamb_b)), passage);
+    if (why.empty()) {
+      result.passages.push_back(std::move(passage));
+    } else {
+      result.refused.push_back(opening.id + ": " + why);
+    }
+  }
+  return result;
+}
+
+void open_passages(const std::vector<Passage>& passages, Labels& labels) {
+  for (const Passage& passage : passages) {
+    for (const std::size_t cell : passage.cells) {
+      labels.label[cell] = kEmpty;
+      labels.unobserved[cell] = 0;
+    }
+  }
+}
+
+}  // namespace roomcut

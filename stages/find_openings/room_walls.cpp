@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/find_openings/room_walls.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <tuple>
+
+namespace roomcut {
+
+namespace {
+
+constexpr double kParallel_rad = 3.0 * std::numbers::pi / 180.0;
+constexpr double kThinnest_m = 0.03;
+
+/// Where a line of walk leaves a convex face.
+struct Exit {
+  std::int32_t edge = -1;
+  double distance = 0;  ///< from the start of the walk [m]
+};
+
+Exit leave_face(const CellComplex& complex, std::int32_t face, const Vec2& from, const Vec2& direction) {
+  constexpr double kAlong = 1e-12;  // edges along the walk are not crossed
+  constexpr double kBeside = 1e-9;  // of an edge's length: two edges of one side share their corner
+  Exit best;
+  best.distance = std::numeric_limits<double>::infinity();
+  const auto first = complex.face_offset[static_cast<std::size_t>(face)];
+  const auto last = complex.face_offset[static_cast<std::size_t>(face) + 1];
+  for (auto i = first; i < last; ++i) {
+    const auto next = i + 1 == last ? first : i + 1;
+    const Vec2& p =
+        complex.vertices[static_cast<std::size_t>(complex.face_vertex[static_cast<std::size_t>(i)])];
+    const Vec2 side =
+        complex.vertices[static_cast<std::size_t>(complex.face_vertex[static_cast<std::size_t>(next)])] - p;
+    const double outwards = side.y() * direction.x() - side.x() * direction.y();
+    if (outwards <= kAlong) {
+      continue;
+    }
+    const Vec2 arm = p - from;
+    const double distance = (side.y() * arm.x() - side.x() * arm.y()) / outwards;
+    const double u = (direction.y() * arm.x() - direction.x() * arm.y()) / outwards;
+    if (u >= -kBeside && u <= 1 + kBeside && distance < best.distance) {
+      best = {complex.face_edge[static_cast<std::size_t>(i)], distance};
+    }
+  }
+  return best;
+}
+
+using Key = std::tuple<std::int32_t, std::int32_t, int>;                           // line_a, line_b, side
+using Places = std::map<Key, std::vector<std::pair<std::int64_t, std::int32_t>>>;  // column, layer
+
+class Walker {
+ public:
+  Walker(const CellComplex& complex, const std::vector<std::uint8_t>& label, double max_thickness_m,
+         double step_m)
+      : complex_(complex), label_(label), max_m_(max_thickness_m), step_m_(step_m) {}
+
+  Places walk_all() {
+    for (const CellComplex::Edge& edge : complex_.edges) {
+      if (edge.line < 0 || edge.left < 0 || edge.right < 0) {
+        continue;
+      }
+      const Line2& line = complex_.lines[static_cast<std::size_t>(edge.line)].line;
+      const Vec2& p0 = complex_.vertices[static_cast<std::size_t>(edge.v0)];
+      const Vec2& p1 = complex_.vertices[static_cast<std::size_t>(edge.v1)];
+      const bool along = line.direction().dot(p1 - p0) > 0;  // then the normal points to the right
+      walk_edge(edge, line, along ? edge.left : edge.right, along ? edge.right : edge.left, 1);
+      walk_edge(edge, line, along ? edge.right : edge.left, along ? edge.left : edge.right, -1);
+    }
+    return std::move(places_);
+  }
+
+ private:
+  bool empty(std::int32_t face, std::size_t layer) const {
+    return label_[complex_.cell(static_cast<std::size_t>(face), layer)] ==
+           static_cast<std::uint8_t>(Label::kEmpty);
+  }
+
+  /// From the room `outer` through the face `inner` behind the edge, towards side · normal.
+  void walk_edge(const CellComplex::Edge& edge, const Line2& line, std::int32_t outer, std::int32_t inner,
+                 int side) {
+    start_.clear();
+    for (std::size_t k = 0; k < complex_.layers(); ++k) {
+      if (empty(outer, k) && !empty(inner, k)) {
+        start_.push_back(k);
+      }
+    }
+    if (start_.empty()) {
+      return;
+    }
+    const auto [low, high] = std::minmax({line.along(complex_.vertices[static_cast<std::size_t>(edge.v0)]),
+                                          line.along(complex_.vertices[static_cast<std::size_t>(edge.v1)])});
+    const auto first = static_cast<std::int64_t>(std::ceil(low / step_m_ - 0.5));
+    for (std::int64_t i = first; (static_cast<double>(i) + 0.5) * step_m_ < high; ++i) {
+      walk_column(edge.line, line, inner, side, i);
+    }
+  }
+
+  void walk_column(std::int32_t line_a, const Line2& line, std::int32_t face, int side, std::int64_t column) {
+    const Vec2 from = line.at((static_cast<double>(column) + 0.5) * step_m_);
+    const Vec2 direction = side * line.normal();
+    open_ = start_;
+    while (!open_.empty()) {
+      const Exit exit = leave_face(complex_, face, from, direction);
+      if (exit.edge < 0 || exit.distance > max_m_) {
+        return;
+      }
+      const CellComplex::Edge& edge = complex_.edges[static_cast<std::size_t>(exit.edge)];
+      face = edge.left == face ? edge.right : edge.left;
+      if (face < 0) {
+        return;
+      }
+      const auto arrived =
+          std::stable_partition(open_.begin(), open_.end(), [&](std::size_t k) { return !empty(face, k); });
+      if (is_far_face(line_a, line, edge.line, exit.distance)) {
+        auto& places = places_[{line_a, edge.line, side}];
+        for (auto k = arrived; k != open_.end(); ++k) {
+          places.emplace_back(column, static_cast<std::int32_t>(*k));
+        }
+      }
+      open_.erase(arrived, open_.end());
+    }
+  }
+
+  bool is_far_face(std::int32_t line_a, const Line2& a, std::int32_t line_b, double distance) const {
+    return line_b > line_a && distance >= kThinnest_m &&
+           angle_between(a.theta, complex_.lines[static_cast<std::size_t>(line_b)].line.theta) <=
+               kParallel_rad;
+  }
+
+  const CellComplex& complex_;
+  const std::vector<std::uint8_t>& label_;
+  double max_m_, step_m_;
+  Places places_;
+  std::vector<std::size_t> start_, open_;  // layers
+};
+
+}  // namespace
+
+std::vector<RoomWall> find_room_walls(const CellComplex& complex, const std::vector<std::uint8_t>& label,
+                                      double max_thickness_m, double step_m) {
+  std::vector<RoomWall> walls;
+  for (const auto& [key, places] : Walker(complex, label, max_thickness_m, step_m).walk_all()) {
+    if (places.empty()) {
+      continue;
+    }
+    RoomWall wall;
+    std::tie(wall.line_a, wall.line_b, wall.side) = key;
+    wall.a = complex.lines[static_cast<std::size_t>(wall.line_a)].line;
+    wall.b = complex.lines[static_cast<std::size_t>(wall.line_b)].line;
+    wall.step_m = step_m;
+    const auto [low, high] = std::minmax_element(places.begin(), places.end());
+    wall.first = low->first;
+    wall.columns = static_cast<std::size_t>(high->first - low->first + 1);
+    wall.layers = complex.layers();
+    wall.wall.assign(wall.columns * wall.layers, 0);
+    for (const auto& [column, layer] : places) {
+      wall.wall[static_cast<std::size_t>(column - wall.first) * wall.layers +
+                static_cast<std::size_t>(layer)] = 1;
+    }
+    walls.push_back(std::move(wall));
+  }
+  return walls;
+}
+
+}  // namespace roomcut

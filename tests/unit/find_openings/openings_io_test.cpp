@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/openings/openings_io.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "common/errors/codes.h"
+
+namespace roomcut {
+namespace {
+
+namespace fs = std::filesystem;
+
+class OpeningsIo : public testing::Test {
+ protected:
+  fs::path path_ = fs::path(testing::TempDir()) / "roomcut_openings.geojson";
+  void TearDown() override { fs::remove(path_); }
+
+  static Openings two() {
+    Openings openings;
+    openings.frame.origin[0] = 500000.25;
+    openings.cells_payload_sha256 = std::string(64, 'a');
+    for (const int i : {2, 1}) {
+      Opening opening;
+      opening.id = "o000" + std::to_string(i);
+      opening.wall_a = "w1";
+      opening.wall_b = "w\"2";
+      opening.jamb_a = {1.0 * i, 2.123456789};
+      opening.jamb_b = {0.1, 2.0};
+      opening.thickness_m = 0.12;
+      opening.head_z = 2.05;
+      opening.proof_a = {100, 0.9, 0.0005};
+      openings.openings.push_back(opening);
+    }
+    return openings;
+  }
+  std::string code() const {
+    try {
+      read_openings(path_, std::string(64, 'a'));
+    } catch (const StageError& error) {
+      return error.problems().front().code.id;
+    }
+    return "";
+  }
+};
+
+TEST_F(OpeningsIo, WhatIsWrittenIsReadSortedAndRounded) {
+  EXPECT_TRUE(write_openings(path_, two(), {}));
+  EXPECT_FALSE(write_openings(path_, two(), {})) << "an equal payload is not new";
+  const OpeningsFile file = read_openings(path_, std::string(64, 'a'));
+  ASSERT_EQ(file.content.openings.size(), 2U);
+  const Opening& first = file.content.openings[0];
+  EXPECT_EQ(first.id, "o0001");
+  EXPECT_EQ(first.wall_b, "w\"2");
+  EXPECT_EQ(first.jamb_a, Vec2(0.1, 2.0)) << "the lesser end comes first …";
+  EXPECT_EQ(first.jamb_b, Vec2(1.0, 2.123457));
+  EXPECT_EQ(first.proof_b.points, 100U) << "… and its proof with it";
+  EXPECT_EQ(file.content.frame.origin[0], 500000.25);
+  EXPECT_EQ(read_openings(path_).payload_sha256, file.payload_sha256);
+}
+
+TEST_F(OpeningsIo, NoOpeningIsAFileToo) {
+  Openings none;
+  none.cells_payload_sha256 = std::string(64, 'a');
+  write_openings(path_, none, {});
+  EXPECT_TRUE(read_openings(path_, std::string(64, 'a')).content.openings.empty());
+}
+
+TEST_F(OpeningsIo, OtherCellsAreA05AndDamageIsA02NamingTheFeature) {
+  Openings openings = two();
+  openings.cells_payload_sha256 = std::string(64, 'b');
+  write_openings(path_, openings, {});
+  EXPECT_EQ(code(), "A05");
+  openings = two();
+  openings.openings[0].head_z = openings.openings[0].sill_z;
+  write_openings(path_, openings, {});
+  EXPECT_EQ(code(), "A02");
+  std::ofstream(path_) << "{\"type\": \"FeatureCollection\"}";
+  EXPECT_EQ(code(), "A02");
+  std::ofstream(path_) << "not JSON";
+  EXPECT_EQ(code(), "A02");
+}
+
+}  // namespace
+}  // namespace roomcut
