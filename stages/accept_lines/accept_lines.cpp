@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/wall_lines/describe_changes.h"
+
 namespace roomcut {
 
 namespace {
@@ -57,6 +59,28 @@ Acceptance accept_lines(const WallLines& detected, const std::string& detection_
   result.locked =
       static_cast<int>(std::count_if(result.lines.lines.begin(), result.lines.lines.end(), locked));
   return result;
+}
+
+std::string describe_moved_base(const Acceptance& acceptance, const std::string& detection_sha256,
+                                std::size_t most) {
+  std::vector<std::string> items;
+  for (const WallLine& line : acceptance.only_detected) {
+    items.push_back("only the detection has " + describe(line));
+  }
+  for (const WallLine& line : acceptance.only_edited) {
+    items.push_back("only the edit has       " + describe(line));
+  }
+  std::string text =
+      "the detection changed since the edit began; the edit stays in force, check it (when done, write "
+      "\"base_sha256\": \"" +
+      detection_sha256 + "\" into its member `roomcut`)";
+  for (std::size_t i = 0; i < std::min(most, items.size()); ++i) {
+    text += "\n  " + items[i];
+  }
+  if (items.size() > most) {
+    text += "\n  … and " + std::to_string(items.size() - most) + " more (make diff-lines)";
+  }
+  return items.empty() ? text + "\n  every line still has its partner" : text;
 }
 
 }  // namespace roomcut

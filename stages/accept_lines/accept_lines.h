@@ -31,4 +31,8 @@ Acceptance accept_lines(const WallLines& detected, const std::string& detection_
 std::vector<WallLine> without_partner(const std::vector<WallLine>& lines,
                                       const std::vector<WallLine>& others);
 
+/// The warning for an edit whose base has moved on: what to do, and at most `most` lines of what differs.
+std::string describe_moved_base(const Acceptance& acceptance, const std::string& detection_sha256,
+                                std::size_t most = 20);
+
 }  // namespace roomcut

@@ -5,7 +5,6 @@
 #include "common/cli/run_stage.h"
 #include "common/wall_lines/wall_lines_io.h"
 #include "stages/accept_lines/accept_lines.h"
-#include "stages/accept_lines/describe_changes.h"
 #include "stages/accept_lines/params.h"
 
 namespace {

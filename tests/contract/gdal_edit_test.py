@@ -75,7 +75,7 @@ class GdalEdit(unittest.TestCase):
         with open(self.edit, encoding="utf-8") as text:
             self.assertIn("roomcut", json.load(text), "GDAL keeps our member")
         told = self.run_program("diff_lines", "-q").stdout
-        self.assertIn("w0005 moved by 0.190 m", told)
+        self.assertIn("w0005 moved by 190.0 mm", told)
         self.assertIn("deleted: w0006", told)
         accepted = self.accept()
         lines = self.by_id(accepted)

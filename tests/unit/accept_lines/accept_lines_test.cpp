@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace roomcut {
 namespace {
 
@@ -82,6 +84,18 @@ TEST(WithoutPartner, CollinearLinesWithoutACommonStretchAreNotPartners) {
 TEST(WithoutPartner, AnObliqueLineThroughTheCentreIsNone) {
   const std::vector<WallLine> line{make_line("a", {0, 0}, {5, 0})};
   EXPECT_EQ(without_partner(line, {make_line("b", {0, -0.25}, {5, 0.25})}).size(), 1U);
+}
+
+TEST(DescribeMovedBase, ListsAtMostTwentyLinesAndSaysHowManyMore) {
+  Acceptance accepted;
+  accepted.base_moved = true;
+  for (int i = 0; i < 33; ++i) {
+    accepted.only_detected.push_back(make_line("w" + std::to_string(i), {0, 0}, {1, 0}));
+  }
+  const std::string text = describe_moved_base(accepted, "abc");
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 21);
+  EXPECT_NE(text.find("13 more"), std::string::npos);
+  EXPECT_NE(text.find("\"base_sha256\": \"abc\""), std::string::npos);
 }
 
 }  // namespace
