@@ -8,7 +8,7 @@ MAKEFLAGS += --no-print-directory --no-builtin-rules
 
 # From the command line; passed on through the environment, so that names may hold spaces and any letters.
 BUILD ?= build
-export SCAN WORK CONFIG BUILD JOBS UP UNIT STATIONS TRUTH QUIET ONLY BASE OUT
+export SCAN WORK CONFIG BUILD JOBS UP UNIT STATIONS TRUTH PORT QUIET ONLY BASE OUT
 
 stages := ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines \
           final_partition final_weigh_faces final_raycast final_graphcut find_openings extract report
@@ -18,7 +18,7 @@ generator = $$(command -v ninja > /dev/null && echo "-G Ninja")
 quiet_make = env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL
 pipeline = +@sh stages/pipeline.sh
 
-.PHONY: help deps build test demo run status verify edit-lines diff-lines drop-edit evaluate accuracy accuracy-walls bench tidy format ready \
+.PHONY: help deps build test demo run status verify view edit-lines diff-lines drop-edit evaluate accuracy accuracy-walls bench tidy format ready \
         $(stages) $(stages:%=rerun-%) $(stages:%=clean-%) $(stages:%=plot-%)
 
 help:
@@ -32,6 +32,7 @@ help:
 	'make rerun-STAGE SCAN=…       that stage again, and of what follows only what it changes' \
 	'make plot-STAGE | clean-STAGE pictures of what is there up to a stage | delete what a stage wrote' \
 	'make status | verify SCAN=…   what would run, and why | compute all digests again' \
+	'make view SCAN=…              the report in the browser, served on this machine only; lines edited there are saved' \
 	'make edit-lines SCAN=…        copy the lines to work/office/edits/wall_lines.geojson, to be edited' \
 	'make diff-lines | drop-edit   what the edit changes | move it aside' \
 	'make report | evaluate TRUTH=truth.off | bench | tidy | format' \
@@ -43,7 +44,7 @@ help:
 	'        (second pass) final_partition final_weigh_faces final_raycast final_graphcut   find_openings extract report' \
 	'WORK=folder    instead of work/<name of the scan>      CONFIG=my.yaml  parameters instead of pipeline.yaml' \
 	'UP=y UNIT=mm   how the scan is to be read              STATIONS=file   scanner positions, x y z on each line' \
-	'JOBS=n         threads of a stage; default: all' \
+	'JOBS=n         threads of a stage; default: all        PORT=n          of make view; default: any free one' \
 	'BUILD=folder   of the programs instead of build/       QUIET=1         errors only'
 
 deps:
@@ -71,7 +72,7 @@ demo: build
 	  '  report.html             every stage in pictures' '  evaluate/scores.json    how far from the truth (truth.off)' \
 	  'Your own scan: make run SCAN=office.ply'
 
-run status verify edit-lines diff-lines drop-edit evaluate: ready
+run status verify view edit-lines diff-lines drop-edit evaluate: ready
 	$(pipeline) $@
 
 $(stages): ready

@@ -2,7 +2,7 @@
 # The rules of the pipeline. stages/pipeline.sh runs this file inside a work folder, so that all names here are relative and have
 # no spaces, whatever the folder is called. It has brought inputs/ and params/ up to date: those files change only when
 # their content does. From the environment: ROOMCUT_BIN, _SCAN, _UP,
-# _UNIT, _THREADS, _VERBOSITY, _STATUS; not SCAN itself, which Make would hand on as the user wrote it, relative to elsewhere.
+# _UNIT, _THREADS, _VERBOSITY, _STATUS, _PROGRESS; not SCAN itself, which Make would hand on as the user wrote it, relative to elsewhere.
 #
 # How a stage runs again only when it must:
 #   params/<stage>.json  resolved parameters and the stage's revision; written anew only when they differ
@@ -15,7 +15,7 @@
 
 MAKEFLAGS += --no-builtin-rules --no-print-directory
 .SUFFIXES:
-.PHONY: FORCE run
+.PHONY: FORCE run table
 FORCE:
 
 names :=
@@ -23,6 +23,8 @@ names :=
 # $(call stage,name,program,outputs,inputs,options)
 define stage
 names += $(1)
+row_$(1) := $(1) $(2) : $(3) : params/$(2).json $(4)
+position_$(1) := $$(words $$(names))
 missing_$(1) := $(filter-out $(wildcard $(3)),$(3))
 .PHONY: $(1)
 $(1): $(3) ; @:
@@ -34,7 +36,8 @@ endef
 ifdef ROOMCUT_STATUS
 run_stage = @echo "$(1) $(filter-out FORCE,$?) $(missing_$(1):%=missing:%)" >> stamps/.status
 else
-run_stage = @if [ -f stamps/$(1) ]; then mv -f stamps/$(1) stamps/$(1).before; fi; \
+# With ROOMCUT_PROGRESS every stage is announced: "@stage 7 15 raycast".
+run_stage = @$(if $(ROOMCUT_PROGRESS),echo "@stage $(position_$(1)) $(words $(names)) $(1)"; )if [ -f stamps/$(1) ]; then mv -f stamps/$(1) stamps/$(1).before; fi; \
 	"$$ROOMCUT_BIN/$(2)" --work . --params params/$(2).json --log logs/$(1).json $(ROOMCUT_THREADS:%=--threads %) $(ROOMCUT_VERBOSITY) $(4) && \
 	"$$ROOMCUT_BIN/artefact" settle stamps/$(1) "$(missing_$(1))" $(3)
 endif
@@ -78,3 +81,7 @@ $(eval $(call stage,report,report,report.html,$(cloud) $(slices) $(lines_30) 30_
   $(weights) $(terms) $(labels) $(lines_80) $(final) model.ply summary.json))
 
 run: $(names) ; @:
+
+# What `make status` reads: "name program : outputs : inputs", one stage a line.
+table:
+	@:$(foreach name,$(names),$(info $(row_$(name))))

@@ -1,14 +1,15 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# usage: pipeline.sh run|status|verify|edit-lines|diff-lines|drop-edit|evaluate|plot|clean|rerun|make [NAME …]
-# One command on one work folder; the Makefile calls it. Reads SCAN, WORK, CONFIG, BUILD, JOBS, UP, UNIT, STATIONS, TRUTH, QUIET
+# usage: pipeline.sh run|status|verify|view|edit-lines|diff-lines|drop-edit|evaluate|plot|clean|rerun [NAME …]
+# One command on one work folder; the Makefile calls it. Reads SCAN, WORK, CONFIG, BUILD, JOBS, UP, UNIT, STATIONS, TRUTH, PORT, QUIET
 # from the environment. Works with any characters in file names: every name is quoted, and Make sees relative names only.
 set -eu
 
 # Every process that this script starts costs milliseconds, a run should cost a quarter of a second: builtins where they do.
 root=$(cd "${0%/*}/.." && pwd)
 stages="ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines find_openings extract report"
-: "${SCAN:=}" "${WORK:=}" "${CONFIG:=}" "${BUILD:=$root/build}" "${JOBS:=}" "${UP:=}" "${UNIT:=}" "${STATIONS:=}" "${TRUTH:=}" "${QUIET:=}"
+: "${SCAN:=}" "${WORK:=}" "${CONFIG:=}" "${BUILD:=$root/build}" "${JOBS:=}" "${UP:=}" "${UNIT:=}" "${STATIONS:=}" "${TRUTH:=}"
+: "${PORT:=}" "${QUIET:=}"
 
 fail() {
   echo "error[U01] $1" >&2
@@ -208,33 +209,15 @@ outputs_of() { # what the last stamp of a stage lists
 
 show_status() {
   : > stamps/.status
-  export ROOMCUT_STATUS=1
-  rules run > /dev/null
+  rules table > stamps/.table
+  (export ROOMCUT_STATUS=1 && rules run > /dev/null)
   echo "$WORK"
   echo "  scan  $SCAN (up $UP, unit $UNIT)"
   if [ -f edits/wall_lines.geojson ]; then echo "  edit  $WORK/edits/wall_lines.geojson is in force"; fi
-  waits=
-  for stage in $stages; do
-    names=$stage
-    case $stage in refine_lines) names="$stage final_partition final_weigh_faces final_raycast final_graphcut" ;; esac
-    for name in $names; do
-      why=$(sed -n "s/^$name //p" stamps/.status)
-      if ! grep -q "^$name " stamps/.status; then
-        if [ -z "$waits" ]; then state="up to date"; else state="up to date, if $waits comes out as before"; fi
-      elif [ ! -f "stamps/$name" ] && [ ! -f "stamps/$name.before" ]; then
-        state="never run"
-        waits=$name
-      elif [ ! -f "stamps/$name" ]; then
-        state="to run: did not finish last time"
-        waits=$name
-      else
-        state="to run: changed or missing: $why"
-        waits=$name
-      fi
-      printf '  %-18s %s\n' "$name" "$state"
-    done
-  done
-  rm -f stamps/.status
+  failed=0
+  "$BIN/artefact" status stamps/.table stamps/.status || failed=$?
+  rm -f stamps/.status stamps/.table
+  return $failed
 }
 
 edit_lines() {
@@ -254,6 +237,14 @@ drop_edit() {
   while [ -e "edits/old/wall_lines.$n.geojson" ]; do n=$((n + 1)); done
   mv edits/wall_lines.geojson "edits/old/wall_lines.$n.geojson"
   echo "the edit lies now in $WORK/edits/old/wall_lines.$n.geojson; make run goes back to the detected lines"
+}
+
+# Serves the page until Ctrl-C, without the lock: what the page asks for is another run of this script.
+view() {
+  [ -x "$BIN/view" ] || fail "$BIN: the programs are not built" "make build"
+  export SCAN WORK CONFIG BUILD JOBS UP UNIT STATIONS ROOMCUT_PROGRESS=1
+  unset MAKEFLAGS MFLAGS MAKELEVEL MAKEOVERRIDES TRUTH QUIET
+  exec "$BIN/view" --work "$WORK" --port "${PORT:-0}" --pipeline "$root/stages/pipeline.sh" -q
 }
 
 # A stage again, and of what follows only what was made before and is changed by it.
@@ -281,6 +272,7 @@ case $command in
     [ -d "$WORK/inputs" ] || [ -e "$SCAN" ] || { echo "error[C01] $SCAN: there is no such file" >&2; exit 3; } ;;
 esac
 for name in "$@"; do known_stage "$name"; done
+if [ "$command" = view ]; then view; fi
 take_lock
 case $command in
   run)
@@ -304,7 +296,7 @@ case $command in
   status)
     refresh
     show_status ;;
-  verify) "$BIN/artefact" verify $(ls stamps/* 2> /dev/null | grep -v '\.before$') ;;
+  verify) "$BIN/artefact" verify --schemas "$root/schemas" --scan "$SCAN" $(ls stamps/* 2> /dev/null | grep -v '\.before$') ;;
   clean) clean "$1" ;;
   evaluate)
     [ -n "$TRUTH" ] || fail "make evaluate: no truth given" "make evaluate SCAN=… TRUTH=truth.off"

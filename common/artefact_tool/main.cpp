@@ -3,6 +3,7 @@
 
 #include "common/artefact/h5.h"
 #include "common/artefact_tool/commands.h"
+#include "common/artefact_tool/status.h"
 #include "common/errors/codes.h"
 
 namespace {
@@ -12,7 +13,8 @@ using Paths = std::vector<std::filesystem::path>;
 
 constexpr const char* kUsage =
     "artefact show|digest|bytes FILE …   artefact input FILE NAME\n"
-    "artefact settle STAMP \"MISSING …\" OUTPUT …   artefact verify STAMP …\n";
+    "artefact settle STAMP \"MISSING …\" OUTPUT …   artefact status PIPELINE STALE\n"
+    "artefact verify [--schemas FOLDER] [--scan FILE] STAMP …\n";
 
 void show(const std::filesystem::path& path) {
   const InputRecord record = inspect_artefact(path);
@@ -40,11 +42,24 @@ bool print_input(const std::filesystem::path& path, const std::string& name) {
   return false;
 }
 
-int run(const std::string& command, const Paths& paths) {
+/// Takes "--schemas FOLDER" and "--scan FILE" off the front.
+VerifyOptions take_options(Paths& paths) {
+  VerifyOptions options;
+  while (paths.size() > 1 && (paths[0] == "--schemas" || paths[0] == "--scan")) {
+    (paths[0] == "--scan" ? options.scan : options.schemas) = paths[1];
+    paths.erase(paths.begin(), paths.begin() + 2);
+  }
+  return options;
+}
+
+int run(const std::string& command, Paths paths) {
   if (command == "settle" && paths.size() > 2) {
     settle(paths[0], paths[1].string(), Paths(paths.begin() + 2, paths.end()));
   } else if (command == "verify") {
-    verify(paths);
+    const VerifyOptions options = take_options(paths);
+    verify(paths, options);
+  } else if (command == "status" && paths.size() == 2) {
+    print_status(parse_pipeline(read_text_file(paths[0])), parse_stale(read_text_file(paths[1])));
   } else if (command == "input" && paths.size() == 2) {
     return print_input(paths[0], paths[1].string()) ? 0 : static_cast<int>(ExitCode::kInput);
   } else if (command == "show" || command == "digest" || command == "bytes") {

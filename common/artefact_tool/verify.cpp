@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+#include <cmath>
+#include <cstdio>
 #include <iostream>
 
 #include "common/artefact/h5.h"
 #include "common/artefact/json.h"
 #include "common/artefact_tool/commands.h"
+#include "common/artefact_tool/schema_check.h"
 #include "common/errors/codes.h"
+#include "common/mesh/mesh_check.h"
+#include "common/mesh/mesh_io.h"
 #include "common/openings/openings_io.h"
 #include "common/wall_lines/wall_lines_io.h"
 
@@ -40,7 +46,69 @@ bool is_still(const InputRecord& record, const fs::path& folder) {
   return now == record.payload_sha256;
 }
 
-void check(const StampEntry& entry, std::vector<Problem>& problems) {
+void check_provenance(const fs::path& path, const VerifyOptions& options, std::vector<Problem>& problems) {
+  const Provenance provenance = read_provenance(path);
+  if (sha256_hex(provenance.params_json) != provenance.params_sha256) {
+    problems.push_back({errors::kArtefactDamaged, path.string(),
+                        "its parameters do not have the digest that it states", "delete it and run make"});
+  }
+  for (const InputRecord& input : provenance.inputs) {
+    if (!is_still(input, path.parent_path())) {
+      problems.push_back({errors::kArtefactMismatch, path.string(),
+                          "was made from another version of " + input.path, "make run brings it up to date"});
+    }
+    std::error_code error;
+    if (input.name == "scan" && fs::is_regular_file(options.scan, error) &&
+        sha256_of_file(options.scan) != input.payload_sha256) {
+      problems.push_back({errors::kArtefactMismatch, path.string(),
+                          "was made from other bytes than " + options.scan.string() + " holds now",
+                          "make run brings it up to date"});
+    }
+  }
+}
+
+void check_schema(const fs::path& path, const std::string& artefact, const VerifyOptions& options,
+                  std::vector<Problem>& problems) {
+  const fs::path schema = options.schemas / (artefact + ".schema.json");
+  std::error_code error;
+  const bool json = path.extension() == ".json" || path.extension() == ".geojson";
+  if (options.schemas.empty() || !json || !fs::is_regular_file(schema, error)) {
+    return;
+  }
+  for (const std::string& violation : schema_violations(path, schema)) {
+    problems.push_back({errors::kArtefactDamaged, path.string(),
+                        violation + " (" + schema.filename().string() + ")", "delete it and run make"});
+  }
+}
+
+/// The volume that the summary beside a model states [m^3]; NaN when there is none.
+double stated_volume(const fs::path& model) {
+  const fs::path summary = model.parent_path() / "summary.json";
+  std::error_code error;
+  if (!fs::is_regular_file(summary, error)) {
+    return std::nan("");
+  }
+  const Json json = read_json_artefact(summary, artefacts::kSummary);
+  return json.value("/mesh/volume_m3"_json_pointer, std::nan(""));
+}
+
+void check_model(const fs::path& path, std::vector<Problem>& problems) {
+  constexpr double kSameVolume = 1e-6;  // relative: both are sums of the same triangles
+  const MeshCheck mesh = check_mesh(read_mesh(path));
+  const char* remedy = "make rerun-extract; if it stays so, this is a bug in roomcut";
+  if (!mesh.valid()) {
+    problems.push_back({errors::kMeshInvalid, path.string(), describe_faults(mesh), remedy});
+  }
+  const double stated = stated_volume(path);
+  if (std::abs(mesh.volume_m3 - stated) > kSameVolume * std::abs(stated)) {
+    std::array<char, 120> text{};
+    std::snprintf(text.data(), text.size(), "encloses %.4f m3, summary.json states %.4f m3", mesh.volume_m3,
+                  stated);
+    problems.push_back({errors::kArtefactMismatch, path.string(), text.data(), remedy});
+  }
+}
+
+void check(const StampEntry& entry, const VerifyOptions& options, std::vector<Problem>& problems) {
   const std::string name = entry.path.string();
   std::error_code error;
   if (!fs::is_regular_file(entry.path, error)) {
@@ -53,17 +121,16 @@ void check(const StampEntry& entry, std::vector<Problem>& problems) {
     problems.push_back(
         {errors::kArtefactMismatch, name, "is not the file that its stage wrote", "delete it and run make"});
   }
+  check_schema(entry.path, stated.artefact, options, problems);
   if (actual_digest(entry.path, stated) != stated.payload_sha256) {
     problems.push_back({errors::kArtefactDamaged, name, "its content does not have the digest that it states",
                         "delete it and run make"});
   }
   if (!stated.artefact.empty()) {
-    for (const InputRecord& input : read_provenance(entry.path).inputs) {
-      if (!is_still(input, entry.path.parent_path())) {
-        problems.push_back({errors::kArtefactMismatch, name, "was made from another version of " + input.path,
-                            "make run brings it up to date"});
-      }
-    }
+    check_provenance(entry.path, options, problems);
+  }
+  if (entry.path.filename() == "model.ply") {
+    check_model(entry.path, problems);
   }
   if (problems.size() == before) {
     std::cout << "ok  " << name << "\n";
@@ -72,12 +139,12 @@ void check(const StampEntry& entry, std::vector<Problem>& problems) {
 
 }  // namespace
 
-void verify(const std::vector<fs::path>& stamps) {
+void verify(const std::vector<fs::path>& stamps, const VerifyOptions& options) {
   std::vector<Problem> problems;
   for (const fs::path& stamp : stamps) {
     for (const StampEntry& entry : read_stamp(stamp)) {
       try {
-        check(entry, problems);
+        check(entry, options, problems);
       } catch (const StageError& error) {
         problems.insert(problems.end(), error.problems().begin(), error.problems().end());
       }

@@ -1,0 +1,152 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# usage: commands.sh SOURCE BUILD: every command of the Makefile on a real run.
+SOURCE=$(realpath "$1")
+BUILD=$(realpath "$2")
+. "$(dirname "$0")/lib.sh"
+edit=$work/edits/wall_lines.geojson
+
+says() { # says NAME PATTERN: a line of the output matches, blanks as they come
+  if grep -Eq "$2" "$output"; then ok "$1"; else not_ok "$1" "$(cat "$output")"; fi
+}
+status_says() { # status_says STAGE PATTERN
+  mk status
+  says "status: $1: $2" "^  $1 +$2\$"
+}
+refused() { # refused NAME COMMAND …
+  local name=$1
+  shift
+  if "$@"; then not_ok "$name"; else ok "$name"; fi
+}
+change() { # change FILE PYTHON: edits a JSON file; `d` is its content, `f` its features by wall_id
+  python3 - "$1" "$2" <<'P'
+import json, sys
+d = json.load(open(sys.argv[1]))
+f = {feature["properties"].get("wall_id"): feature for feature in d.get("features", [])}
+exec(sys.argv[2])
+json.dump(d, open(sys.argv[1], "w"))
+P
+}
+config_text() { printf "$1" > "$config"; }
+
+config_text 'graphcut:\n  mu_m: 0.3\n'
+make_scan 1 "$scan" || exit 1
+mk status
+[ "$(grep -c ' never run$' "$output")" -eq "$(echo $ALL | wc -w)" ] && ok "status before the first run: nothing has run" ||
+  not_ok "status before the first run: nothing has run" "$(cat "$output")"
+mk run || { cat "$output"; exit 1; }
+
+# status: one line a stage, with the reason
+mk status
+says "status when all is done" '^Everything is up to date'
+config_text 'graphcut:\n  mu_m: 0.5\nslice:\n'
+status_says graphcut 'stale: parameter mu_m changed 0.3 -> 0.5'
+says "… and of the second pass" '^  final_graphcut +stale: parameter mu_m changed 0.3 -> 0.5$'
+says "… those before are fresh" '^  raycast +fresh$'
+says "… those after wait for it" '^  refine_lines +fresh, runs only if graphcut comes out different$'
+says "… and the model for both" '^  extract +fresh, runs only if graphcut or final_graphcut comes out different$'
+config_text 'graphcut:\n  mu_m: 0.3\n'
+mk run
+rm "$work/20_slice/slices.h5"
+status_says slice 'stale: its output 20_slice/slices.h5 is missing'
+mk run
+rm "$work/stamps/raycast" && touch "$work/stamps/raycast.before"
+status_says raycast 'stale: it did not finish last time'
+mk run
+printf ' ' >> "$scan" && mk status UP=y
+says "status: a changed scan, read another way" '^  ingest +stale: the scan changed, the scan is to be read with another up axis or unit$'
+make_scan 1 "$scan"
+mk run UP=z
+touch "$work/90_final/cells.h5"
+status_says final_weigh_faces 'stale: its input 90_final/cells.h5 was made anew'
+mk run
+
+# edit-lines, diff-lines, drop-edit
+mk diff-lines
+says "diff-lines without an edit says so" '^no edit at .*: all [0-9]+ lines are as detected$'
+mk drop-edit
+says "drop-edit without an edit says so" '^there is no edit in '
+check "edit-lines" mk edit-lines
+says "… says where the file is and what comes next" "^edit this file, one line per wall: $edit\$"
+mk diff-lines
+says "diff-lines of an untouched copy" '^[0-9]+ as detected, 0 moved, 0 added, 0 deleted, 0 locked$'
+status_says accept_lines 'stale: a hand edit was put in place'
+ids=($(python3 -c 'import json,sys; print(*[x["properties"]["wall_id"] for x in json.load(open(sys.argv[1]))["features"]])' "$edit"))
+change "$edit" '
+a, b, c = [f[i] for i in sorted(f)[:3]]
+p, q = a["geometry"]["coordinates"]
+n = [q[1] - p[1], p[0] - q[0]]; s = 0.12 / (n[0] ** 2 + n[1] ** 2) ** 0.5
+for point in (p, q): point[0] += s * n[0]; point[1] += s * n[1]
+b["properties"]["locked"] = True
+d["features"].remove(c)
+d["features"].append({"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": [[1, 1], [1, 2.5]]}})'
+mk diff-lines
+says "diff-lines: moved by how much" "^moved:   ${ids[0]} moved by 120.0 mm, turned by 0.00 deg\$"
+says "diff-lines: locked" "^locked:  ${ids[1]} \\("
+says "diff-lines: deleted" "^deleted: ${ids[2]} \\("
+says "diff-lines: added" '^added:   e0001 \(1.50 m, from \(1.00, 1.00\) to \(1.00, 2.50\)\)$'
+says "diff-lines: all in one line" '^[0-9]+ as detected, 1 moved, 1 added, 1 deleted, 1 locked$'
+mk accept_lines
+status_says accept_lines 'fresh, edited: 1 moved, 1 added, 1 deleted, 1 locked'
+change "$edit" 'f[sorted(i for i in f if i)[0]]["properties"]["note"] = "looked at"'
+status_says accept_lines 'stale: the hand edit changed'
+mk accept_lines
+cp "$edit" "$place/edit"
+check "drop-edit" mk drop-edit
+says "… says where it went" "^the edit lies now in $work/edits/old/wall_lines.1.geojson"
+check "… with all its bytes" cmp "$place/edit" "$work/edits/old/wall_lines.1.geojson"
+status_says accept_lines 'stale: the hand edit was dropped'
+mk edit-lines && mk drop-edit
+check "a second drop-edit keeps the first" test -s "$work/edits/old/wall_lines.1.geojson" -a -s "$work/edits/old/wall_lines.2.geojson"
+mk run
+
+# verify: every kind of flaw
+check "verify finds all in order" mk verify
+[ "$(grep -c '^ok  ' "$output")" -ge 17 ] && ok "… in every file" || not_ok "… in every file" "$(cat "$output")"
+flaw() { # flaw FILE CODE PATTERN COMMAND …: the command damages FILE, verify says so, the file comes back
+  local file=$1 code=$2 pattern=$3 name="verify: $1: $3"
+  shift 3
+  cp -p "$work/$file" "$place/kept"
+  "$@"
+  if mk verify; then not_ok "$name"; else says "$name" "error\\[$code\\] $file: .*$pattern"; fi
+  grep -q 'Error 3' "$output" || grep -q 'Error 4' "$output" || not_ok "… with its exit code" "$(cat "$output")"
+  cp -p "$place/kept" "$work/$file"
+}
+flaw summary.json A02 'rooms.0.area_m2: ' change "$work/summary.json" 'd["rooms"][0]["area_m2"] = "large"'
+flaw summary.json A02 'does not have the digest' change "$work/summary.json" 'd["rooms"][0]["area_m2"] += 1'
+flaw summary.json A02 'its parameters do not have the digest' change "$work/summary.json" 'd["provenance"]["params_json"] = "{}"'
+flaw summary.json A05 'was made from another version of' change "$work/summary.json" '
+inputs = d["provenance"]["inputs"]
+(inputs["labels"] if isinstance(inputs, dict) else [i for i in inputs if i["name"] == "labels"][0])["payload_sha256"] = "0" * 64'
+flaw 40_accept_lines/wall_lines.geojson A02 'features.0.properties.*support_m' change "$work/40_accept_lines/wall_lines.geojson" \
+  'd["features"][0]["properties"]["support_m"] = -1'
+flaw model.ply A05 'is not the file that its stage wrote' python3 -c '
+import sys
+content = bytearray(open(sys.argv[1], "rb").read())
+end = content.index(b"end_header\n") + 11
+content[end + 6] ^= 1
+open(sys.argv[1], "wb").write(content)' "$work/model.ply"
+flaw model.ply A05 'encloses [0-9.]+ m3, summary.json states' python3 -c '
+import struct, sys
+content = bytearray(open(sys.argv[1], "rb").read())
+end = content.index(b"end_header\n") + 11
+count = int(content[:end].decode().split("element vertex ")[1].split()[0])
+z = [struct.unpack_from("<d", content, end + 24 * i + 16)[0] for i in range(count)]
+for i in range(count):
+    if z[i] > max(z) - 1e-6:
+        struct.pack_into("<d", content, end + 24 * i + 16, z[i] + 0.5)
+open(sys.argv[1], "wb").write(content)' "$work/model.ply"
+flaw model.ply N06 '' python3 -c '
+import sys
+content = bytearray(open(sys.argv[1], "rb").read())
+content[content.index(b"end_header\n") + 11 + 7] ^= 0x80  # x of the first vertex: mirrored
+open(sys.argv[1], "wb").write(content)' "$work/model.ply"
+flaw 20_slice/slices.h5 A0 '' cp "$work/50_partition/cells.h5" "$work/20_slice/slices.h5"
+cp "$scan" "$place/scan" && printf ' ' >> "$scan"
+refused "verify finds another scan" mk verify
+says "… and says so" 'error\[A05\] 10_ingest/cloud.h5: was made from other bytes than '
+cp "$place/scan" "$scan"
+mk run
+check "verify finds all in order again" mk verify
+
+finish
