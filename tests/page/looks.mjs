@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What every report must show, whatever the building.
+import assert from "node:assert/strict";
+import { join } from "node:path";
+import { json, look, screenshot, settled, step, windowOf } from "./browser.mjs";
+
+const kModel = "#model-canvas > canvas";
+const kPlan = "#plan-canvas > canvas";
+
+export async function looksAtModel(page, name) {
+  await step("the model is drawn, each storey another picture", async () => {
+    const whole = await look(page, kModel);
+    assert.ok(whole.ink > 0.1 && whole.colours > 20, JSON.stringify(whole));
+    await screenshot(page, `${name}_model`);
+    const seen = new Set([whole.hash]);
+    const storeys = await page.$$eval("[data-storey]", (buttons) => buttons.map((button) => button.dataset.storey));
+    for (const storey of storeys.filter((number) => number !== "-1")) {
+      await page.click(`[data-storey="${storey}"]`);
+      const picture = await look(page, kModel);
+      assert.ok(picture.ink > 0.02, `storey ${storey}: ${JSON.stringify(picture)}`);
+      assert.ok(!seen.has(picture.hash), `storey ${storey} looks like another`);
+      seen.add(picture.hash);
+      await screenshot(page, `${name}_storey_${storey}`);
+    }
+    await page.click('[data-storey="-1"]');
+  });
+
+  await step("a cut takes the upper half away", async () => {
+    const whole = await look(page, kModel);
+    await page.$eval("#model-cut", (slider) => {
+      slider.value = String((Number(slider.min) + Number(slider.max)) / 2);
+      slider.dispatchEvent(new Event("input"));
+    });
+    const half = await look(page, kModel);
+    assert.ok(half.hash !== whole.hash && half.ink > 0.02);
+    await screenshot(page, `${name}_cut`);
+    await page.$eval("#model-cut", (slider) => {
+      slider.value = slider.max;
+      slider.dispatchEvent(new Event("input"));
+    });
+    assert.equal((await look(page, kModel)).hash, whole.hash);
+  });
+
+  await step("every colouring gives another picture, with a legend", async () => {
+    const names = await page.$$eval("#model-colour option", (options) => options.map((option) => option.textContent));
+    assert.ok(names.length >= 6, names.join());
+    const kinds = new Set();
+    for (const colouring of names) {
+      await page.selectOption("#model-colour", colouring);
+      kinds.add((await look(page, kModel)).hash);
+      assert.notEqual(await page.textContent("#model-canvas .legend"), "", colouring);
+      if (/ω|Distance/.test(colouring)) {
+        await screenshot(page, `${name}_by_${colouring.startsWith("D") ? "distance" : "omega"}`);
+      }
+    }
+    // Evidences may be alike everywhere (all of a building unobserved by the sky); most differ.
+    assert.ok(kinds.size > names.length / 2, `${kinds.size} of ${names.length}`);
+  });
+
+  await step("the scan appears beneath the model", async () => {
+    const without = await look(page, kModel);
+    await page.selectOption("#model-cloud", { index: 3 });
+    const withCloud = await look(page, kModel);
+    assert.notEqual(withCloud.hash, without.hash);
+    await screenshot(page, `${name}_cloud`);
+    await page.selectOption("#model-cloud", { index: 0 });
+  });
+
+  await step("a click on a face says why", async () => {
+    await page.selectOption("#model-colour", { label: "Coverage ω of the face" });
+    const box = await page.locator(kModel).boundingBox();
+    await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+    const why = await page.textContent("#model-why");
+    assert.match(why, /Cell \d+: empty/);
+    assert.match(why, /Flipping this cell alone would cost/);
+  });
+}
+
+export async function looksAtPlan(page, name) {
+  await page.click("#tab-plan");
+  await step("each slice has its plan", async () => {
+    const count = await page.$$eval("#plan-slice option", (options) => options.length);
+    const seen = new Set();
+    for (let k = 0; k < count; ++k) {
+      await page.evaluate((i) => window.roomcut.plan.choose(window.roomcut.plan.slices[i]), k);
+      const picture = await look(page, kPlan);
+      assert.ok(picture.ink > 0.01, `slice ${k}`);
+      seen.add(picture.hash);
+    }
+    assert.equal(seen.size, count);
+    await page.evaluate(() => window.roomcut.plan.choose(window.roomcut.plan.bestSlice()));
+  });
+
+  await step("the keyboard goes from slice to slice, moves and zooms", async () => {
+    await page.focus(kPlan);
+    const at = () => page.evaluate(() => window.roomcut.plan.state.slice.index);
+    const begin = await at();
+    await page.keyboard.press("PageDown");
+    await settled(page);
+    assert.equal(await at(), begin - 1);
+    await page.keyboard.press("PageUp");
+    await settled(page);
+    assert.equal(await at(), begin);
+    const scale = () => page.evaluate(() => window.roomcut.plan.view.viewport.scale);
+    const before = await scale();
+    await page.keyboard.press("+");
+    assert.ok((await scale()) > before);
+    await page.click("text=Fit");
+  });
+
+  await step("walls and clutter, margin and evidence are pictures of their own", async () => {
+    const label = await look(page, kPlan);
+    await screenshot(page, `${name}_plan`);
+    await page.selectOption("#plan-evidence", { label: "walls and clutter" });
+    await page.selectOption("#plan-fill", { label: "none" });
+    const walls = await look(page, kPlan);
+    await screenshot(page, `${name}_walls_and_clutter`);
+    await page.selectOption("#plan-evidence", { label: "none" });
+    await page.selectOption("#plan-fill", { label: "margin of the decision" });
+    const margin = await look(page, kPlan);
+    await screenshot(page, `${name}_margin`);
+    assert.equal(new Set([label.hash, walls.hash, margin.hash]).size, 3);
+    await page.selectOption("#plan-evidence", { label: "occupancy" });
+    await page.selectOption("#plan-fill", { label: "label" });
+  });
+
+  await step("a click on a cell says why, with every evidence of the file", async () => {
+    const target = await page.evaluate(() => {
+      const { run, plan } = window.roomcut;
+      const { layer } = plan.state.slice;
+      let best = -1;
+      for (let f = 0; f < run.complex.faces; ++f) {
+        if (run.complex.isEmpty(f, layer) && (best < 0 || run.complex.areas[f] > run.complex.areas[best])) {
+          best = f;
+        }
+      }
+      const corners = run.complex.corners(best);
+      const middle = [0, 1].map((axis) => corners.reduce((sum, corner) => sum + corner[axis], 0) / corners.length);
+      return { middle, cell: run.complex.cell(best, layer), evidence: run.complex.block.evidence };
+    });
+    await page.mouse.click(...(await windowOf(page, target.middle)));
+    const why = await page.textContent("#plan-why");
+    assert.match(why, new RegExp(`Cell ${target.cell}: empty`));
+    for (const { name: evidence, description } of target.evidence) {
+      if (!["beta", "d_empty", "d_solid"].includes(evidence)) {
+        assert.ok(why.includes(evidence) && why.includes(description), evidence);
+      }
+    }
+    for (const words of [/points inside/, /would cost [\d.]+ m³/, /as empty/, /surface term/, /beyond/, /Part of room \d+/]) {
+      assert.match(why, words);
+    }
+    await screenshot(page, `${name}_why`);
+  });
+
+  await step("a click on a wall says what covers it", async () => {
+    await page.uncheck("#plan-lines");
+    const middle = await page.evaluate(() => {
+      const { run, plan } = window.roomcut;
+      const { layer } = plan.state.slice;
+      let best = null;
+      for (let e = 0; e < run.complex.edges; ++e) {
+        const { a, b, left, right } = run.complex.edge(e);
+        const length = Math.hypot(a[0] - b[0], a[1] - b[1]);
+        if (run.complex.isEmpty(left, layer) !== run.complex.isEmpty(right, layer) && (!best || length > best.length)) {
+          best = { length, middle: [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2] };
+        }
+      }
+      return best.middle;
+    });
+    await page.mouse.click(...(await windowOf(page, middle)));
+    const why = await page.textContent("#plan-why");
+    assert.match(why, /Wall face/);
+    assert.match(why, /A wall of the model/);
+    assert.match(why, /points\d+/);
+    await page.check("#plan-lines");
+  });
+}
+
+/** What the page works out for itself must agree with what the stages wrote. */
+export async function agreesWithTheRun(page, work) {
+  const summary = json(join(work, "summary.json"));
+  await step("the page's energy of a flip is the margin that graphcut wrote, for every cell", async () => {
+    const worst = await page.evaluate(() => window.roomcut.worstMargin());
+    assert.ok(worst.difference < 1e-3, JSON.stringify(worst));
+    assert.ok(worst.cells > 100);
+  });
+  await step("storeys and rooms of the cells are those of summary.json", async () => {
+    const rooms = await page.evaluate(() => window.roomcut.run.storeys.rooms.map(({ storey, area }) => ({ storey, area })));
+    assert.equal(rooms.length, summary.rooms.length);
+    summary.rooms.forEach((room, i) => {
+      assert.equal(rooms[i].storey, room.storey);
+      assert.ok(Math.abs(rooms[i].area - room.area_m2) < 1e-3, `room ${room.room}`);
+    });
+  });
+  await step("the tables hold every room, every stage, and the checks of the mesh", async () => {
+    const rooms = await page.textContent("#rooms");
+    for (const { area_m2: area } of summary.rooms) {
+      assert.ok(rooms.includes(area.toFixed(2)), String(area));
+    }
+    assert.match(rooms, /self intersections0/);
+    assert.match(rooms, /closedyes/);
+    const stages = await page.textContent("#stages");
+    for (const stage of ["ingest", "slice", "detect_lines", "final_graphcut", "extract"]) {
+      assert.ok(stages.includes(stage), stage);
+    }
+    assert.match(stages, /graphcut\.mu_m0\.3default/);
+    assert.match(stages, /slice\.tau_mauto[\d.]+: /);
+    const bars = await page.$eval("#histogram path", (path) => path.getAttribute("d").length);
+    assert.ok(bars > 500);
+  });
+}
+
+export async function looksAtTables(page, name) {
+  for (const part of ["levels", "rooms", "stages"]) {
+    await page.click(`#tab-${part}`);
+    await settled(page);
+    await screenshot(page, `${name}_${part}`);
+  }
+}
+
+export function nothingWrong(page) {
+  assert.deepEqual(page.complaints, []);
+  const outside = page.asked.filter((url) => !/^(file|blob|data):/.test(url));
+  assert.deepEqual(outside, [], "the page asked the net");
+}
