@@ -8,7 +8,7 @@
 #   params/<stage>.json  resolved parameters and the stage's revision; written anew only when they differ
 #   inputs/              digests of what enters from outside (scan, its options, the hand edit); likewise
 #   stamps/<name>        written when the stage has run, with the digests of its outputs
-# An output whose payload is as before keeps its old time (the stage sees to that, `artefact settle` when the old file was gone),
+# An output whose payload is as before keeps its old time (the stage sees to that; when the old file was gone, by the digest in its last stamp),
 # so that nothing after it runs. The recipe `@:` of an output makes Make look at its time again after the stage has run.
 # A stage that is killed or fails leaves no stamp and runs again. The programs themselves are no prerequisites: a
 # rebuild repeats hours of work only when a stage's revision changed.
@@ -37,9 +37,8 @@ ifdef ROOMCUT_STATUS
 run_stage = @echo "$(1) $(filter-out FORCE,$?) $(missing_$(1):%=missing:%)" >> stamps/.status
 else
 # With ROOMCUT_PROGRESS every stage is announced: "@stage 7 15 raycast".
-run_stage = @$(if $(ROOMCUT_PROGRESS),echo "@stage $(position_$(1)) $(words $(names)) $(1)"; )if [ -f stamps/$(1) ]; then mv -f stamps/$(1) stamps/$(1).before; fi; \
-	"$$ROOMCUT_BIN/$(2)" --work . --params params/$(2).json --log logs/$(1).json $(ROOMCUT_THREADS:%=--threads %) $(ROOMCUT_VERBOSITY) $(4) && \
-	"$$ROOMCUT_BIN/artefact" settle stamps/$(1) "$(missing_$(1))" $(3)
+run_stage = @$(if $(ROOMCUT_PROGRESS),echo "@stage $(position_$(1)) $(words $(names)) $(1)"; )"$$ROOMCUT_BIN/$(2)" --work . --params params/$(2).json \
+	--log logs/$(1).json --stamp stamps/$(1) --missing "$(missing_$(1))" $(ROOMCUT_THREADS:%=--threads %) $(ROOMCUT_VERBOSITY) $(4)
 endif
 
 lines_30 := 30_detect_lines/wall_lines.geojson

@@ -14,6 +14,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "common/artefact/unsynced_file.h"
 #include "common/errors/codes.h"
 
 namespace roomcut {
@@ -112,6 +113,12 @@ void sync_path(const fs::path& path, const fs::path& shown, int flags) {
   }
 }
 
+void put_in_place(const fs::path& temporary, const fs::path& path) {
+  if (::rename(temporary.c_str(), path.c_str()) != 0) {
+    cannot_write(path, "cannot be put in place", errno);
+  }
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(fs::path final_path) : final_(std::move(final_path)) {
@@ -174,9 +181,7 @@ void AtomicFile::commit(bool keep_time) {
     }
   }
   sync_path(temporary_, final_, O_RDONLY);
-  if (::rename(temporary_.c_str(), final_.c_str()) != 0) {
-    cannot_write(final_, "cannot be put in place", errno);
-  }
+  put_in_place(temporary_, final_);
   committed_ = true;
   forget_temporary(temporary_);
   const fs::path folder = final_.has_parent_path() ? final_.parent_path() : fs::path(".");
@@ -193,6 +198,12 @@ bool write_text_file(const fs::path& path, std::string_view text) {
   file.write(text);
   file.commit();
   return true;
+}
+
+void write_unsynced_file(const fs::path& path, std::string_view text) {
+  const AtomicFile file(path);  // never committed: its destructor then finds nothing to remove
+  file.write(text);
+  put_in_place(file.temporary_path(), path);
 }
 
 std::string read_text_file(const fs::path& path) {

@@ -13,7 +13,7 @@ using Paths = std::vector<std::filesystem::path>;
 
 constexpr const char* kUsage =
     "artefact show|digest|bytes FILE …   artefact input FILE NAME\n"
-    "artefact settle STAMP \"MISSING …\" OUTPUT …   artefact status PIPELINE STALE\n"
+    "artefact status PIPELINE STALE\n"
     "artefact verify [--schemas FOLDER] [--scan FILE] STAMP …\n";
 
 void show(const std::filesystem::path& path) {
@@ -53,9 +53,7 @@ VerifyOptions take_options(Paths& paths) {
 }
 
 int run(const std::string& command, Paths paths) {
-  if (command == "settle" && paths.size() > 2) {
-    settle(paths[0], paths[1].string(), Paths(paths.begin() + 2, paths.end()));
-  } else if (command == "verify") {
+  if (command == "verify") {
     const VerifyOptions options = take_options(paths);
     verify(paths, options);
   } else if (command == "status" && paths.size() == 2) {

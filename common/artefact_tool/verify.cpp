@@ -6,6 +6,7 @@
 
 #include "common/artefact/h5.h"
 #include "common/artefact/json.h"
+#include "common/artefact/stamp.h"
 #include "common/artefact_tool/commands.h"
 #include "common/artefact_tool/schema_check.h"
 #include "common/errors/codes.h"
@@ -142,7 +143,12 @@ void check(const StampEntry& entry, const VerifyOptions& options, std::vector<Pr
 void verify(const std::vector<fs::path>& stamps, const VerifyOptions& options) {
   std::vector<Problem> problems;
   for (const fs::path& stamp : stamps) {
-    for (const StampEntry& entry : read_stamp(stamp)) {
+    const std::vector<StampEntry> entries = read_stamp(stamp);
+    if (entries.empty()) {
+      problems.push_back({errors::kArtefactDamaged, stamp.string(), "the stamp names no output",
+                          "delete it and run make: it is left like this when the machine loses power"});
+    }
+    for (const StampEntry& entry : entries) {
       try {
         check(entry, options, problems);
       } catch (const StageError& error) {

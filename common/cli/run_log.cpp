@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <ctime>
+#include <fstream>
 
 #include "common/cli/stage_state.h"
 
@@ -30,6 +32,18 @@ std::string host_name() {
   return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
 }
 
+/// What this process has read or written so far, files and terminal; 0 where the system does not tell.
+std::uint64_t bytes_moved(const std::string& key) {
+  std::ifstream counters("/proc/self/io");
+  std::string line;
+  while (std::getline(counters, line)) {
+    if (line.starts_with(key)) {
+      return std::strtoull(line.c_str() + key.size(), nullptr, 10);
+    }
+  }
+  return 0;
+}
+
 /// A log is read by people and tools alike; whatever bytes a file name has, it must stay valid JSON.
 std::string utf8_or_escaped(const std::string& text) {
   const std::string dumped = Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -49,6 +63,8 @@ Json run_log(const StageRun::State& state, const std::vector<Problem>& problems,
               {"wall_s", used.wall_s},
               {"cpu_s", used.cpu_s},
               {"peak_memory_mb", used.peak_mb},
+              {"bytes_read", bytes_moved("rchar: ")},
+              {"bytes_written", bytes_moved("wchar: ")},
               {"threads", state.threads},
               {"params", Json::parse(state.params_json, nullptr, false)},
               {"chosen", Json::array()},

@@ -9,7 +9,8 @@
 #include <iostream>
 #include <new>
 
-#include "common/artefact/atomic_file.h"
+#include "common/artefact/stamp.h"
+#include "common/artefact/unsynced_file.h"
 #include "common/cli/stage_state.h"
 #include "common/errors/codes.h"
 
@@ -25,6 +26,8 @@ struct CommandLine {
   std::vector<std::string> sets;
   int threads = 0;
   std::string log;
+  std::string stamp;
+  std::string missing;
   bool quiet = false;
   bool verbose = false;
   bool dump = false;
@@ -52,6 +55,12 @@ void declare_options(CLI::App& app, const StageInfo& info, CommandLine& line, St
   app.add_option("--log", line.log,
                  "Log of this run; default: <work>/logs/" + info.name + ".json when --work is given")
       ->type_name("FILE");
+  app.add_option("--stamp", line.stamp, "For Make: written when the stage has run, names the outputs")
+      ->type_name("FILE")
+      ->group("Make");
+  app.add_option("--missing", line.missing, "For Make: outputs that were not there, separated by spaces")
+      ->type_name("FILES")
+      ->group("Make");
   app.add_flag("-q,--quiet", line.quiet, "Print nothing but errors");
   app.add_flag("-v,--verbose", line.verbose, "Print settings and files as well");
   app.add_flag("--dump-params", line.dump, "Print the resolved parameters and stop");
@@ -92,6 +101,14 @@ void resolve_files(const StageInfo& info, const CommandLine& line, StageRun::Sta
       }
     }
   }
+}
+
+std::vector<std::filesystem::path> outputs_of(const StageInfo& info, const StageRun::State& state) {
+  std::vector<std::filesystem::path> outputs;
+  for (const StageFile& file : info.outputs) {
+    outputs.push_back(state.files.at(file.name));
+  }
+  return outputs;
 }
 
 void resolve_parameters(const StageInfo& info, const CommandLine& line, ParameterTable& table) {
@@ -180,7 +197,7 @@ void write_log(const CommandLine& line, bool work_given, const StageInfo& info, 
                                          ? std::filesystem::path(line.work) / "logs" / (info.name + ".json")
                                          : std::filesystem::path(line.log);
   try {
-    write_text_file(path, pretty_json(run_log(state, problems, exit_code)) + "\n");
+    write_unsynced_file(path, pretty_json(run_log(state, problems, exit_code)) + "\n");
   } catch (const std::exception& error) {
     std::cerr << "warning: " << info.name << ": the log is not written: " << error.what();
   }
@@ -228,7 +245,13 @@ int run_stage(int argc, char** argv, const StageInfo& info, ParameterTable table
                                         static_cast<std::size_t>(state.threads));
         echo_settings(info, state, table);
         StageRun run(state);
+        if (!line.stamp.empty()) {
+          withdraw_stamp(line.stamp);
+        }
         body(run);
+        if (!line.stamp.empty()) {
+          settle_stamp(line.stamp, line.missing, outputs_of(info, state));
+        }
         print_summary(state);
       },
       problems);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/artefact/stamp.h"
+
 #include <fcntl.h>
 #include <sys/stat.h>
 
@@ -9,7 +11,7 @@
 #include <sstream>
 
 #include "common/artefact/h5.h"
-#include "common/artefact_tool/commands.h"
+#include "common/artefact/unsynced_file.h"
 #include "common/errors/codes.h"
 
 namespace roomcut {
@@ -59,10 +61,21 @@ void set_time(const StampEntry& entry) {
   }
 }
 
+fs::path before_of(const fs::path& stamp) {
+  return stamp.string() + ".before";
+}
+
 }  // namespace
 
-void settle(const fs::path& stamp, const std::string& missing, const std::vector<fs::path>& outputs) {
-  const fs::path before = stamp.string() + ".before";
+void withdraw_stamp(const fs::path& stamp) {
+  if (::rename(stamp.c_str(), before_of(stamp).c_str()) != 0 && errno != ENOENT) {
+    throw StageError(errors::kCannotWrite, stamp.string(),
+                     std::string("cannot be moved aside: ") + std::strerror(errno));
+  }
+}
+
+void settle_stamp(const fs::path& stamp, const std::string& missing, const std::vector<fs::path>& outputs) {
+  const fs::path before = before_of(stamp);
   const std::vector<StampEntry> old = read_stamp(before);
   std::set<std::string> were_missing;
   std::istringstream words(missing);
@@ -86,9 +99,7 @@ void settle(const fs::path& stamp, const std::string& missing, const std::vector
          << '\n';
   }
   // Always a new file: a stamp says by its time when the stage ran.
-  AtomicFile file(stamp);
-  file.write(text.str());
-  file.commit();
+  write_unsynced_file(stamp, text.str());
   std::error_code ignored;
   fs::remove(before, ignored);
 }
