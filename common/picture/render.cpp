@@ -86,7 +86,8 @@ class DepthBuffer {
     const int x1 =
         std::min(image_.width() - 1, static_cast<int>(std::floor(std::max({a.x(), b.x(), c.x()}))));
     for (int y = y0; y <= y1; ++y) {
-      for (int x = x0; x <= x1; ++x) {
+      const auto [first, last] = inside_row({a, b, c}, y, x0, x1);
+      for (int x = first; x <= last; ++x) {
         const double u = ((b.x() - x) * (c.y() - y) - (b.y() - y) * (c.x() - x)) / doubled_area;
         const double v = ((c.x() - x) * (a.y() - y) - (c.y() - y) * (a.x() - x)) / doubled_area;
         const double w = 1 - u - v;
@@ -95,6 +96,30 @@ class DepthBuffer {
         }
       }
     }
+  }
+
+  /// The columns of a row that may lie in a triangle, one more on each side, within [x0, x1].
+  static std::pair<int, int> inside_row(const std::array<Vector3d, 3>& corners, int y, int x0, int x1) {
+    double low = std::numeric_limits<double>::max();
+    double high = -low;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector3d& p = corners[k];
+      const Vector3d& q = corners[(k + 1) % 3];
+      if (std::min(p.y(), q.y()) > y + 1e-6 || std::max(p.y(), q.y()) < y - 1e-6) {
+        continue;
+      }
+      const double rise = q.y() - p.y();
+      const double t = std::abs(rise) > 1e-6 ? std::clamp((y - p.y()) / rise, 0.0, 1.0) : 0.0;
+      const double x = p.x() + t * (q.x() - p.x());
+      const double other = std::abs(rise) > 1e-6 ? x : q.x();
+      low = std::min({low, x, other});
+      high = std::max({high, x, other});
+    }
+    if (low > high) {
+      return {x0, x0 - 1};
+    }
+    return {std::max(x0, static_cast<int>(std::floor(low)) - 1),
+            std::min(x1, static_cast<int>(std::ceil(high)) + 1)};
   }
 
   void line(const Vector3d& a, const Vector3d& b, double lift, Colour colour) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/artefact/atomic_file.h"
+#include "common/artefact/unsynced_file.h"
 #include "common/cli/run_stage.h"
 #include "stages/report/report_io.h"
 
@@ -22,7 +23,7 @@ int main(int argc, char** argv) {
     const auto page = run.output("report");
     const auto pictures = draw_pictures(run, params, only);
     for (const Picture& picture : pictures) {
-      write_text_file(page.parent_path() / "pictures" / picture.file, picture.bytes);
+      write_unsynced_file(page.parent_path() / "pictures" / picture.file, picture.bytes);
     }
     run.count("pictures", static_cast<double>(pictures.size()));
     if (only == "all") {
