@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <mutex>
 
 #include "stages/ingest/ingest.h"
 #include "stages/ingest/surface_tile.h"
@@ -21,6 +22,31 @@ struct FinishedTile {
   CloudTile cloud;
   SurfaceEstimates estimates;
   bool refused = false;
+};
+
+/// Finished tiles to be used again: fresh memory for every tile would cost a tenth of the pass in page
+/// faults.
+class FinishedTiles {
+ public:
+  std::shared_ptr<FinishedTile> take() {
+    const std::scoped_lock lock(mutex_);
+    if (free_.empty()) {
+      return std::make_shared<FinishedTile>();
+    }
+    std::shared_ptr<FinishedTile> tile = std::move(free_.back());
+    free_.pop_back();
+    tile->estimates = {};
+    tile->refused = false;
+    return tile;
+  }
+  void give_back(const std::shared_ptr<FinishedTile>& tile) {
+    const std::scoped_lock lock(mutex_);
+    free_.push_back(tile);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::shared_ptr<FinishedTile>> free_;
 };
 
 /// What one thread needs to class tiles.
@@ -53,14 +79,12 @@ TilePlace place_of(const TiledScan& scan, const KeptTile& tile) {
   return place;
 }
 
-std::shared_ptr<FinishedTile> class_tile(const TiledScan& scan, const KeptTile& tile, const UnitScale& scale,
-                                         Workshop& workshop) {
-  auto finished = std::make_shared<FinishedTile>();
+void class_tile(const TiledScan& scan, const KeptTile& tile, const UnitScale& scale, Workshop& workshop,
+                FinishedTile& finished) {
   scan.store->gather(tile.tile, workshop.points);
   workshop.grid.build(workshop.points, place_of(scan, tile), scale);
-  const std::vector<VoxelSurface>& surfaces = workshop.finder.find(workshop.grid, scale, finished->estimates);
-  finished->refused = make_cloud_tile(workshop.grid, surfaces, scan.store->has_hints(), finished->cloud);
-  return finished;
+  const std::vector<VoxelSurface>& surfaces = workshop.finder.find(workshop.grid, scale, finished.estimates);
+  finished.refused = make_cloud_tile(workshop.grid, surfaces, scan.store->has_hints(), finished.cloud);
 }
 
 }  // namespace
@@ -90,6 +114,7 @@ SurfaceSummary class_tiles(const TiledScan& scan, const IngestParams& params,
                            const std::function<void(const CloudTile&)>& take, const Advance& advance) {
   const UnitScale scale(params.voxel_edge_m);
   tbb::enumerable_thread_specific<Workshop> workshops([&] { return Workshop(params); });
+  FinishedTiles tiles;
   SurfaceSummary summary;
   std::size_t next = 0;
   const auto tokens = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()) + 1;
@@ -101,7 +126,9 @@ SurfaceSummary class_tiles(const TiledScan& scan, const IngestParams& params,
     return next++;
   };
   const auto class_one = [&](std::size_t tile) {
-    return class_tile(scan, scan.tiles[tile], scale, workshops.local());
+    std::shared_ptr<FinishedTile> finished = tiles.take();
+    class_tile(scan, scan.tiles[tile], scale, workshops.local(), *finished);
+    return finished;
   };
   const auto hand_over = [&](const std::shared_ptr<FinishedTile>& tile) {
     summary.estimates.add(tile->estimates);
@@ -110,6 +137,7 @@ SurfaceSummary class_tiles(const TiledScan& scan, const IngestParams& params,
     if (advance) {
       advance(tile->cloud.size());
     }
+    tiles.give_back(tile);
   };
   using Tile = std::shared_ptr<FinishedTile>;
   constexpr auto kInOrder = tbb::filter_mode::serial_in_order;

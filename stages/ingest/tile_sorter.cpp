@@ -98,7 +98,7 @@ void TileSorter::lay_out(bool hints, SortedBlock& block) {
   for (const SortedBlock::Run& run : block.runs) {
     auto* x = reinterpret_cast<float*>(block.bytes.get() + run.offset);
     auto* hint = reinterpret_cast<std::uint16_t*>(x + std::size_t{3} * run.points);
-    cursors_.push_back({x, x + run.points, x + std::size_t{2} * run.points, hints ? hint : nullptr});
+    cursors_.push_back({x, run.points, hints ? hint : nullptr});
   }
 }
 
@@ -109,9 +109,10 @@ void TileSorter::scatter(const LocalPoints& local) {
         hints ? normal_hint(local.nx[i], local.ny[i], local.nz[i], params_) : std::uint16_t{0};
     const auto store = [&](std::uint32_t slot) {
       Cursor& cursor = cursors_[slot];
-      *cursor.x++ = local.x[i];
-      *cursor.y++ = local.y[i];
-      *cursor.z++ = local.z[i];
+      float* const at = cursor.x++;
+      at[0] = local.x[i];
+      at[cursor.points] = local.y[i];
+      at[2 * cursor.points] = local.z[i];
       if (hints) {
         *cursor.hint++ = hint;
       }

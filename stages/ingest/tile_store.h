@@ -56,7 +56,8 @@ class TileSorter {
     std::array<std::uint32_t, fixed_grid::kWindowLayers> layers;
   };
   struct Cursor {
-    float *x, *y, *z;
+    float* x;  // y and z lie `points` and 2 `points` behind: one pointer to move per point, not three
+    std::size_t points;  // of the run
     std::uint16_t* hint;
   };
   std::uint32_t slot_of(std::uint32_t tile);
