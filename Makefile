@@ -90,8 +90,12 @@ accuracy: build
 accuracy-walls: build
 	@$(quiet_make) python3 tests/accuracy/walls.py --build "$$BUILD" $(OUT:%=--json %) $(ONLY:%=--only %)
 
-bench: build
-	@bash tests/bench/bench.sh "$$BUILD"
+# BENCH: options of tests/bench/bench.py, e.g. "--sizes 1,4,10,40,100 --series grown".
+bench: deps
+	@sh .ci/install-packages.sh debian-packages-ci.txt
+	@cmake -S . -B "$$BUILD" $(generator) -DROOMCUT_BENCH=ON $(CMAKE_ARGS) > /dev/null
+	@cmake --build "$$BUILD"
+	@python3 tests/bench/bench.py "$$BUILD" $(BENCH)
 
 tidy: build
 	@sh .ci/install-packages.sh debian-packages-ci.txt
