@@ -136,7 +136,7 @@ TEST_P(RandomModels, AreValidAndEncloseJustTheirEmptyCells) {
       GraphcutParams params;
       params.mu_m = mu;
       const Labels labels = graphcut(complex, weights, terms, params).labels;
-      const Model model = extract_model(complex, labels, {});
+      const Model model = extract_model(complex, labels, {}, {});
       EXPECT_EQ(model.fault, "");
       const MeshCheck check = check_mesh(model.surface.mesh);
       EXPECT_TRUE(check.valid()) << describe_faults(check);
