@@ -52,7 +52,7 @@ void score_spaces(const TriangleMesh& model, const TriangleMesh& truth,
   scores.merged = merged_rooms(scores.thin, found);
   if (cells != nullptr) {
     scores.explanation = explain({cells->complex, cells->label, cells->terms ? &*cells->terms : nullptr,
-                                  truth_columns, truth_surface, rooms, finder, found, scores.thin, b},
+                                  truth_columns, model_columns, truth_surface, rooms, finder, found, scores.thin, b},
                                  scores.column_spacing_m, kColumnSeed);
   }
 }

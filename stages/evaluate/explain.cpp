@@ -68,13 +68,15 @@ class Comparison {
     double x, y;
     std::int32_t face;
     std::vector<Crossing> crossings;
-    std::vector<Interval> parts;
+    std::vector<Interval> parts, model;  // empty in the truth, in the model
   };
   void column_at(std::int64_t ix, std::int64_t iy, Column& column) const;
   void measure_cells(std::int64_t iy, RowSums& sums) const;
   void find_causes(std::int64_t iy, RowSums& sums) const;
   void judge_cell(const Column& column, std::size_t layer, const std::vector<Interval>& rooms,
                   RowSums& sums) const;
+  void judge_opening(const Column& column, double lo, double hi, std::vector<Interval>& wrong,
+                     RowSums& sums) const;
   void room_parts(const Column& column, std::vector<Interval>& prisms, RowSums& sums) const;
   Cause geometry(const Column& column, std::size_t layer, const Interval& wrong) const;
   void label_by_truth(const std::vector<RowSums>& rows);
@@ -125,6 +127,9 @@ void Comparison::column_at(std::int64_t ix, std::int64_t iy, Column& column) con
   column.face = locator_.face_at(column.x, column.y);
   input_.truth.crossings(column.x, column.y, column.crossings);
   enclosed(column.crossings, -1, column.parts);
+  std::vector<Crossing> crossings;
+  input_.model.crossings(column.x, column.y, crossings);
+  enclosed(crossings, -1, column.model);
 }
 
 void Comparison::measure_cells(std::int64_t iy, RowSums& sums) const {
@@ -196,6 +201,26 @@ Cause Comparison::geometry(const Column& column, std::size_t layer, const Interv
   return to_wall + to_line <= kMisplaced ? Cause::kLinesMisplaced : Cause::kLinesMissing;
 }
 
+/// What an opening makes of a solid cell: takes from `wrong` what is empty in the model after all.
+void Comparison::judge_opening(const Column& column, double lo, double hi, std::vector<Interval>& wrong,
+                               RowSums& sums) const {
+  std::vector<Interval> cut;
+  clip(column.model, lo, hi, cut);
+  if (total_length(cut) <= kRounding) {
+    return;
+  }
+  std::vector<Interval> closed;
+  complement(cut, lo, hi, closed);
+  sums.extra[static_cast<std::size_t>(Cause::kOpenings)] += total_length(cut) - overlap(cut, wrong);
+  std::vector<Interval> left;
+  std::vector<Interval> inside;
+  for (const Interval& part : closed) {
+    clip(wrong, part.lo, part.hi, inside);
+    left.insert(left.end(), inside.begin(), inside.end());
+  }
+  wrong = left;
+}
+
 void Comparison::judge_cell(const Column& column, std::size_t layer, const std::vector<Interval>& rooms,
                             RowSums& sums) const {
   const std::size_t cell = complex_.cell(static_cast<std::size_t>(column.face), layer);
@@ -207,6 +232,8 @@ void Comparison::judge_cell(const Column& column, std::size_t layer, const std::
   std::vector<Interval> wrong = inside;
   if (empty) {
     complement(inside, lo, hi, wrong);
+  } else {
+    judge_opening(column, lo, hi, wrong, sums);
   }
   auto& out = empty ? sums.extra : sums.lost;
   const bool by_label = (truth_label_[cell] != 0) != empty;

@@ -17,7 +17,7 @@ namespace roomcut {
 /// Why a place is wrong in the model.
 enum class Cause : std::uint8_t {
   kLabels,           ///< the truth's own label on this cell would be right here
-  kOpenings,         ///< empty in the truth but in no room: a doorway or shaft (lost only)
+  kOpenings,         ///< in no room of the truth: a doorway or shaft; or cut too wide (extra)
   kLinesMissing,     ///< a wall of the truth passes through the cell, no line near it
   kLinesMisplaced,   ///< the same, but a line bounds the cell within 10 cm of that wall
   kLevelsMissing,    ///< a floor or ceiling of the truth passes through the cell, no level near it
@@ -75,6 +75,7 @@ struct ExplainInput {
   const std::vector<std::uint8_t>& label;  ///< per cell
   const DataTerms* terms;                  ///< may be null: evidences are 0 then
   const Columns& truth;
+  const Columns& model;  ///< of the cells labelled empty, openings cut
   const MeasuredSurface& truth_surface;
   const std::vector<TruthRoom>& rooms;
   const RoomFinder& finder;
@@ -84,8 +85,8 @@ struct ExplainInput {
 };
 
 /// Compares cells and labels with the truth along one vertical line per square of `spacing_m`. Every wrong
-/// place has one Cause; the lost and extra volumes add up to what volume_scores finds, up to sampling.
-/// Parallel; the same result for any number of threads.
+/// place has one Cause; the lost and extra volumes add up to what volume_scores finds, up to sampling. Where
+/// an opening was cut, the model counts and not the label of its cell. Parallel; the same result for any number of threads.
 Explanation explain(const ExplainInput& input, double spacing_m, std::uint64_t seed);
 
 /// The complex moved by `by`.

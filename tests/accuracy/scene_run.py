@@ -96,7 +96,7 @@ def cpu_seconds(work):
     return sum(read_json(os.path.join(work, "logs", name + ".json"))["cpu_s"] for name in STAGES)
 
 
-def row_of(scores, truth):
+def row_of(scores, truth, openings):
     """What the table shows of one scene; a model that is not closed has no volume and found no room."""
     volume, rooms, thin, mesh = (scores[name] or {} for name in ("volume", "rooms", "thin", "mesh"))
     scanned = {room["name"] for room in truth["rooms"] if room.get("scanned", True)}
@@ -107,15 +107,17 @@ def row_of(scores, truth):
             "missed_scanned": sum(name in scanned for name in lost) if rooms else len(scanned),
             "merged": rooms.get("merged", 0), "thin_kept": thin.get("walls_kept"), "walls": scores["walls_within_1deg_2cm"],
             "horizontals": scores["horizontals_within_1deg_2cm"],
-            "hausdorff_pct": scores["distance"]["symmetric"]["hausdorff_pct"], **explained(scores, mesh, volume)}
+            "hausdorff_pct": scores["distance"]["symmetric"]["hausdorff_pct"], **explained(scores, mesh, volume, openings)}
 
 
-def explained(scores, mesh, volume):
-    """The bound of the cells, the causes of what is wrong as shares of the truth, and whether the mesh encloses just its empty cells."""
+def explained(scores, mesh, volume, openings):
+    """The bound of the cells, the causes of what is wrong as shares of the truth, and whether the mesh encloses just its empty
+    cells and the openings that were cut."""
     explanation = scores["explanation"]
     if not explanation:
         return {"bound": None, "lost": None, "extra": None, "valid": False}
-    equal = abs(mesh["volume_m3"] - explanation["empty_m3"]) <= VOLUME_TOLERANCE * explanation["empty_m3"]
+    empty = explanation["empty_m3"] + sum(opening["volume_m3"] for opening in openings)
+    equal = abs(mesh["volume_m3"] - empty) <= VOLUME_TOLERANCE * empty
     shares = {kind: {cause: m3 / volume["truth_m3"] for cause, m3 in explanation[kind + "_m3"].items()} for kind in ("lost", "extra")}
     return {"bound": explanation["bound_iou"], **shares, "valid": mesh["valid"] and equal}
 
@@ -129,7 +131,8 @@ def run_scene(source, build, scene, root):
         scan, truth, truth_json = make_scan(build, scene, work)
         run(["make", "--no-print-directory", "-C", source, "extract"], SCAN=scan, WORK=work, BUILD=build, JOBS="1", QUIET="1",
             STATIONS=stations_file(scene, truth_json, work), CONFIG=config_file(scene, work))
-        row.update(row_of(evaluate(build, scene, work, truth, truth_json), read_json(truth_json)))
+        openings = read_json(os.path.join(work, "summary.json"))["openings"]
+        row.update(row_of(evaluate(build, scene, work, truth, truth_json), read_json(truth_json), openings))
         row["cpu_s"] = round(cpu_seconds(work), 3)
     except Failed as failure:
         row["error"] = str(failure)

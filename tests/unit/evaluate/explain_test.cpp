@@ -197,6 +197,17 @@ TEST(Explain, WhatIsInNoRoomIsAnOpening) {
   EXPECT_NEAR(total(e.lost_m3), 1, 0.03);
 }
 
+TEST(Explain, AnOpeningThatWasCutIsNotLostAndOneCutTooWideIsExtra) {
+  const DescribedRoom room{"room", {{1, 1}, {3.8, 1}, {3.8, 3}, {1, 3}}, 0, 2.5, {2, 2, 1}};
+  const auto cells = labelled(grid({0, 1, 3.8, 5}, kY, kZ), {{Vec3(1, 1, 0), Vec3(3.8, 3, 2.5)}});
+  const TriangleMesh truth = box({1, 1, 0}, {4, 3, 2.5});
+  EXPECT_NEAR(total(explained(truth, truth, cells, {room}).lost_m3), 0, 1e-6);
+  const Explanation e = explained(box({1, 1, 0}, {4.2, 3, 2.5}), truth, cells, {room});
+  EXPECT_NEAR(total(e.lost_m3), 0, 1e-6);
+  EXPECT_NEAR(of(e.extra_m3, Cause::kOpenings), 0.2 * 2 * 2.5, 0.03);
+  EXPECT_NEAR(total(e.extra_m3), 1, 0.03);
+}
+
 TEST(Explain, ALostWallSaysWhetherItHadCells) {
   TriangleMesh truth = box({1, 1, 0}, {3, 3, 2.5});
   append(truth, box({3.1, 1, 0}, {4, 3, 2.5}));
