@@ -14,7 +14,7 @@ using namespace roomcut;
 StageInfo info() {
   StageInfo stage;
   stage.name = "refine_lines";
-  stage.revision = 3;
+  stage.revision = 4;
   stage.summary = "Refines the wall lines that carry a wall in the first cut, on raw points";
   stage.inputs = {{"lines", "40_accept_lines/wall_lines.geojson", "Accepted wall lines"},
                   {"cells", "50_partition/cells.h5", "Cell complex of the first pass"},
@@ -31,6 +31,7 @@ void report(StageRun& run, const Refinement& refinement) {
   run.count("held", refinement.held);
   run.count("dropped", refinement.dropped);
   run.count("merged", refinement.merged);
+  run.count("split off", refinement.split);
   run.count("directions", refinement.classes);
   run.count("observations", refinement.observations);
   run.count("points", static_cast<double>(refinement.points));
@@ -61,6 +62,9 @@ void body(StageRun& run, const RefineLinesParams& params) {
   }
   if (!params.merge_m) {
     run.chose("merge_m", refiner.merge_m(), "the larger of 1.5 cm and 1.2 x noise");
+  }
+  if (!params.split_m) {
+    run.chose("split_m", refiner.split_m(), "the larger of 5 mm and half the noise");
   }
   Progress progress = run.progress("observing", cloud.header().points);
   cloud.for_each_tile([&](std::size_t, const CloudTile& tile) { refiner.add(tile); },

@@ -50,10 +50,14 @@ struct LineObserver::Hit {
 LineObserver::LineObserver(const std::vector<LineFaces>& lines, const std::vector<bool>& active,
                            const std::vector<double>& levels, double band_m, double noise_m, double density)
     : lines_(lines), levels_(levels), band_m_(band_m), noise_m_(noise_m) {
-  const double height = levels.back() - levels.front();
   const double wanted = std::max(kLowestZone_m, kPatchPoints / (std::max(density, 1.0) * kTypicalBin_m));
-  zones_ = static_cast<std::size_t>(std::max(1.0, std::round(height / wanted)));
-  zone_m_ = height / static_cast<double>(zones_);
+  first_zone_.push_back(0);
+  for (std::size_t layer = 0; layer + 1 < levels.size(); ++layer) {
+    const double height = levels[layer + 1] - levels[layer];
+    first_zone_.push_back(first_zone_.back() +
+                          static_cast<std::size_t>(std::max(1.0, std::round(height / wanted))));
+  }
+  zones_ = first_zone_.back();
   std::int32_t patches = 0;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (active[i] && lines[i].bins > 0) {
@@ -75,8 +79,7 @@ LineObserver::Track LineObserver::make_track(std::size_t line, std::int32_t& pat
   for (std::size_t bin = 0; bin < faces.bins; ++bin) {
     for (std::size_t layer = 0; layer < faces.layers; ++layer) {
       if (faces.side_at(bin, layer) != 0) {
-        const std::size_t last = zone_of(levels_[layer + 1]);
-        for (std::size_t zone = zone_of(levels_[layer]); zone <= last; ++zone) {
+        for (std::size_t zone = first_zone_[layer]; zone < first_zone_[layer + 1]; ++zone) {
           track.patch[bin * zones_ + zone] = 0;
         }
       }
@@ -92,8 +95,11 @@ LineObserver::Track LineObserver::make_track(std::size_t line, std::int32_t& pat
   return track;
 }
 
-std::size_t LineObserver::zone_of(double z) const {
-  return std::min(zones_ - 1, static_cast<std::size_t>(std::max(0.0, (z - levels_.front()) / zone_m_)));
+std::size_t LineObserver::zone_of(double z, std::size_t layer) const {
+  const std::size_t count = first_zone_[layer + 1] - first_zone_[layer];
+  const double share = (z - levels_[layer]) / (levels_[layer + 1] - levels_[layer]);
+  const auto zone = static_cast<std::size_t>(std::max(0.0, share * static_cast<double>(count)));
+  return first_zone_[layer] + std::min(count - 1, zone);
 }
 
 std::vector<LineObserver::Near> LineObserver::lines_near(const CloudTile& tile) const {
@@ -144,7 +150,7 @@ LineObserver::Hit LineObserver::find_line(const CloudTile& tile, std::size_t i,
     const auto bin = static_cast<std::size_t>(t);
     if (faces.side_at(bin, layer) != 0) {
       nearest = std::abs(e);
-      hit = {candidate.track->patch[bin * zones_ + zone_of(z)], e,
+      hit = {candidate.track->patch[bin * zones_ + zone_of(z, layer)], e,
              (t - static_cast<double>(bin)) * faces.bin_m};
     }
   }
@@ -182,7 +188,9 @@ std::vector<Observation> LineObserver::observations(std::size_t i) const {
   const Track& track = tracks_[track_of_[i]];
   const LineFaces& faces = lines_[i];
   std::array<std::uint64_t, OffsetHistogram::kBins> histogram{};
+  std::size_t layer = 0;
   for (std::size_t zone = 0; zone < zones_; ++zone) {
+    layer += zone == first_zone_[layer + 1] ? 1 : 0;
     for (std::size_t bin = 0; bin < faces.bins; ++bin) {
       if (track.patch[bin * zones_ + zone] < 0) {
         continue;
@@ -198,7 +206,7 @@ std::vector<Observation> LineObserver::observations(std::size_t i) const {
         const double along = 1e-6 * static_cast<double>(along_[patch].load()) / count;
         const double t = faces.t0 + static_cast<double>(bin) * faces.bin_m + along;
         result.push_back({faces.line.at(t) + found.offset_m * faces.line.normal(), found.variance_m2,
-                          found.scatter_m2, found.points, static_cast<int>(zone)});
+                          found.scatter_m2, found.points, static_cast<int>(zone), bin, layer});
       }
     }
   }

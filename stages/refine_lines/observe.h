@@ -18,7 +18,9 @@ struct Observation {
   double variance_m2;  ///< of its distance from the line, as the noise and the number of points let expect
   double scatter_m2;   ///< mean square distance of its points from it
   std::uint32_t points;
-  int zone;  ///< piece of height, from below
+  int zone;               ///< piece of height, from below
+  std::size_t bin = 0;    ///< of the line's raster
+  std::size_t layer = 0;  ///< of the line's raster
 };
 
 /// A histogram of point offsets from a line. Each bin packs a count (upper 24 bits) and a fixed-point sum of
@@ -50,10 +52,11 @@ RobustOffset robust_offset(std::span<const std::uint64_t> histogram, double half
 /// belongs to one line only: the nearest one that carries surface at its height and place and whose azimuth
 /// fits within 17 degrees. Points on no plane count too, away from floors and ceilings: beside a thin wall
 /// the neighbourhood of a point reaches through to the other face, more so for points on the inner side, so
-/// planes alone would push the two faces apart. Patches are as long as the line's raster and at least 50 cm
-/// high, higher where points are sparse (about 20 a patch): a wall that leans, and furniture that hides its
-/// lower part, show as patches that differ, not as a smeared histogram. Memory: 10 kB per square metre of
-/// surface. Deterministic for any number of threads: integer sums.
+/// planes alone would push the two faces apart. Patches are as long as the line's raster and about 50 cm
+/// high, higher where points are sparse (about 20 a patch), and never reach over a level: a wall that leans,
+/// furniture that hides its lower part, and another storey's wall show as patches that differ, not as a
+/// smeared histogram. Memory: 10 kB per square metre of surface. Deterministic for any number of threads:
+/// integer sums.
 class LineObserver {
  public:
   /// `active[i]`: whether lines[i] takes part. `levels` as in CellComplex; lines, levels stay owned by the
@@ -78,14 +81,14 @@ class LineObserver {
   struct Near;
   struct Hit;
   Track make_track(std::size_t line, std::int32_t& patches) const;
-  std::size_t zone_of(double z) const;
+  std::size_t zone_of(double z, std::size_t layer) const;
   std::vector<Near> lines_near(const CloudTile& tile) const;
   Hit find_line(const CloudTile& tile, std::size_t i, const std::vector<Near>& near) const;
 
   const std::vector<LineFaces>& lines_;
   const std::vector<double>& levels_;
   double band_m_, noise_m_;
-  double zone_m_ = 0;
+  std::vector<std::size_t> first_zone_;  ///< per layer, and one behind the last
   std::size_t zones_ = 1;
   std::vector<Track> tracks_;
   std::vector<std::size_t> track_of_;  ///< per line, tracks_.size() when inactive

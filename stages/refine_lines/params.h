@@ -17,6 +17,7 @@ struct RefineLinesParams {
   double bin_m = 0.1;
   double regularity_rad = 0.1 * std::numbers::pi / 180;
   std::optional<double> merge_m;  ///< auto: max(1.5 cm, 1.2 noise)
+  std::optional<double> split_m;  ///< auto: max(5 mm, noise / 2)
   double merge_angle_rad = 0.6 * std::numbers::pi / 180;
   std::string edited_lines = "prior";
 };
@@ -38,6 +39,10 @@ inline ParameterTable refine_lines_parameters(RefineLinesParams& p) {
             "How exactly walls of one direction (mod 90 deg) are taken to be parallel; 0 switches it off."),
       auto_number("merge_m", p.merge_m, "m", 0, 0.2,
                   "Refined lines of one face closer than this become one; auto: max(0.015, 1.2 x noise)."),
+      auto_number(
+          "split_m", p.split_m, "m", 0, 0.2,
+          "Walls on one line that differ by more, and measurably so, become lines of their own; auto: "
+          "max(0.005, noise / 2)."),
       angle("merge_angle_deg", p.merge_angle_rad, 0, 5, "Lines that differ by more are never merged."),
       choice("edited_lines", p.edited_lines, {"prior", "locked", "free"},
              "Lines drawn or moved by hand: held near (2 cm, 1 deg), held exactly, or treated like detected "

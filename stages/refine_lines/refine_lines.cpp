@@ -12,6 +12,7 @@
 #include "stages/refine_lines/line_faces.h"
 #include "stages/refine_lines/merge_lines.h"
 #include "stages/refine_lines/observe.h"
+#include "stages/refine_lines/split_lines.h"
 
 namespace roomcut {
 
@@ -45,7 +46,7 @@ struct Item {
 struct LineRefiner::State {
   const CellComplex& complex;
   RefineLinesParams params;
-  double band, merge;
+  double band, merge, apart;
   WallLines kept;                   ///< frame, box, base; no lines
   std::set<std::string> one_sided;  ///< ids of lines that stay as long as they were
   std::vector<WallLine> walls;      ///< survivors, sorted by id
@@ -54,6 +55,7 @@ struct LineRefiner::State {
   std::unique_ptr<LineObserver> observer;
   Refinement result;
 
+  void split(std::vector<Item>& items);
   void solve_each(std::vector<Item>& items) const;
   void solve_together(std::vector<Item>& items);
   bool merge_near(std::vector<Item>& items);
@@ -73,6 +75,7 @@ LineRefiner::LineRefiner(const WallLines& lines, const CellComplex& complex,
                        params,
                        params.band_m.value_or(std::max(0.06, 5 * noise_m)),
                        params.merge_m.value_or(std::max(0.015, 1.2 * noise_m)),
+                       params.split_m.value_or(std::max(0.005, 0.5 * noise_m)),
                        lines,
                        kept,
                        {},
@@ -116,11 +119,49 @@ LineRefiner::~LineRefiner() = default;
 double LineRefiner::band_m() const {
   return state_->band;
 }
+double LineRefiner::split_m() const {
+  return state_->apart;
+}
 double LineRefiner::merge_m() const {
   return state_->merge;
 }
 void LineRefiner::add(const CloudTile& tile) {
   state_->observer->add(tile);
+}
+
+/// Lines of the user's stay whole: they said what is one wall. So do those of walls seen from one side.
+void LineRefiner::State::split(std::vector<Item>& items) {
+  std::vector<double> heights;
+  std::set<std::string> ids;
+  for (std::size_t layer = 0; layer < complex.layers(); ++layer) {
+    heights.push_back(complex.height(layer));
+  }
+  for (const Item& item : items) {
+    ids.insert(item.wall.id);
+  }
+  const std::size_t whole = items.size();
+  for (std::size_t i = 0; i < whole; ++i) {
+    if (items[i].users || items[i].faces.empty() || one_sided.count(items[i].wall.id) > 0) {
+      continue;
+    }
+    std::vector<LinePart> parts =
+        split_line(items[i].faces.front(), items[i].observations, heights, prior_of(items[i]), apart);
+    for (std::size_t k = parts.size(); k-- > 0;) {
+      Item part = items[i];
+      part.area_m2 = parts[k].faces.area_m2;
+      part.faces = {std::move(parts[k].faces)};
+      part.observations = std::move(parts[k].observations);
+      if (k == 0) {
+        items[i] = std::move(part);
+        break;
+      }
+      for (int number = 1; !ids.insert(part.wall.id).second; ++number) {
+        part.wall.id = items[i].wall.id + "." + std::to_string(number);
+      }
+      ++result.split;
+      items.push_back(std::move(part));
+    }
+  }
 }
 
 void LineRefiner::State::solve_each(std::vector<Item>& items) const {
@@ -288,6 +329,7 @@ Refinement LineRefiner::finish() {
     items.push_back(std::move(item));
   }
   s.result.points = s.observer->points();
+  s.split(items);
   s.solve_each(items);
   s.solve_together(items);
   for (int round = 0; round < kMergeRounds && s.merge_near(items); ++round) {

@@ -18,6 +18,7 @@ struct Refinement {
   WallLines lines;
   int dropped = 0;  ///< detected lines that carry no surface of the first cut
   int merged = 0;   ///< lines that went into another one
+  int split = 0;    ///< lines made of walls that were taken for a part of another line
   int refined = 0;  ///< lines that were adjusted
   int held = 0;     ///< lines that stayed as they came: locked, or too few observations
   int classes = 0;  ///< groups of parallel and perpendicular walls
@@ -46,6 +47,7 @@ class LineRefiner {
 
   double band_m() const;  ///< what `auto` resolved to
   double merge_m() const;
+  double split_m() const;
 
  private:
   struct State;
