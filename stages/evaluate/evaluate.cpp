@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "common/errors/codes.h"
+#include "stages/evaluate/face_locator.h"
 
 namespace roomcut {
 
@@ -23,6 +25,23 @@ void require_closed_truth(const MeshCheck& check) {
                      "the mesh is not closed and evenly oriented: " + describe_faults(check),
                      "close it first: rooms, volumes and thin walls need an inside");
   }
+}
+
+/// Openings are cut into walls that the labels keep closed.
+std::function<bool(const Vec3&)> opening_test(const LabelledCells* cells) {
+  if (cells == nullptr) {
+    return [](const Vec3&) { return false; };
+  }
+  return [cells, locator = FaceLocator(cells->complex)](const Vec3& p) {
+    const std::vector<double>& levels = cells->complex.levels;
+    const std::int32_t face = locator.face_at(p.x(), p.y());
+    const auto above = std::upper_bound(levels.begin(), levels.end(), p.z());
+    if (face < 0 || above == levels.begin() || above == levels.end()) {
+      return false;
+    }
+    const auto layer = static_cast<std::size_t>(above - levels.begin()) - 1;
+    return cells->label[cells->complex.cell(static_cast<std::size_t>(face), layer)] == 0;
+  };
 }
 
 void score_spaces(const TriangleMesh& model, const TriangleMesh& truth,
@@ -47,13 +66,14 @@ void score_spaces(const TriangleMesh& model, const TriangleMesh& truth,
     found.push_back(room.found ? 1 : 0);
     scores.rooms.push_back(std::move(room));
   }
-  scores.thin =
-      score_thin_walls(truth_samples, truth_surface.all(), finder, model_columns, params.thin_wall_m);
+  scores.thin = score_thin_walls(truth_samples, truth_surface.all(), finder, model_columns,
+                                 params.thin_wall_m, opening_test(cells));
   scores.merged = merged_rooms(scores.thin, found);
   if (cells != nullptr) {
-    scores.explanation = explain({cells->complex, cells->label, cells->terms ? &*cells->terms : nullptr,
-                                  truth_columns, model_columns, truth_surface, rooms, finder, found, scores.thin, b},
-                                 scores.column_spacing_m, kColumnSeed);
+    scores.explanation =
+        explain({cells->complex, cells->label, cells->terms ? &*cells->terms : nullptr, truth_columns,
+                 model_columns, truth_surface, rooms, finder, found, scores.thin, b},
+                scores.column_spacing_m, kColumnSeed);
   }
 }
 

@@ -86,7 +86,8 @@ struct ExplainInput {
 
 /// Compares cells and labels with the truth along one vertical line per square of `spacing_m`. Every wrong
 /// place has one Cause; the lost and extra volumes add up to what volume_scores finds, up to sampling. Where
-/// an opening was cut, the model counts and not the label of its cell. Parallel; the same result for any number of threads.
+/// an opening was cut, the model counts and not the label of its cell. Parallel; the same result for any
+/// number of threads.
 Explanation explain(const ExplainInput& input, double spacing_m, std::uint64_t seed);
 
 /// The complex moved by `by`.

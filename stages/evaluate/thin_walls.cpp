@@ -12,7 +12,7 @@ namespace roomcut {
 namespace {
 
 struct ThinPlace {
-  bool thin = false, kept = false;
+  bool thin = false, kept = false, opening = false;
   std::int32_t near_room = -1, far_room = -1;
   Vec3 middle{0, 0, 0};
 };
@@ -39,12 +39,14 @@ ThinPlace inspect(const SurfaceSample& sample, const MeshTree& tree, const RoomF
 }  // namespace
 
 ThinWallScores score_thin_walls(const SurfaceDistances& truth_samples, const MeshTree& truth_tree,
-                                const RoomFinder& finder, const Columns& model, double thickest_m) {
+                                const RoomFinder& finder, const Columns& model, double thickest_m,
+                                const std::function<bool(const Vec3&)>& in_opening) {
   const auto& samples = truth_samples.samples;
   std::vector<ThinPlace> places(samples.size());
   tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) {
     if (samples[i].area_m2 > 0) {
       places[i] = inspect(samples[i], truth_tree, finder, model, thickest_m);
+      places[i].opening = places[i].thin && !places[i].kept && in_opening(places[i].middle);
     }
   });
   ThinWallScores out;
@@ -63,8 +65,9 @@ ThinWallScores score_thin_walls(const SurfaceDistances& truth_samples, const Mes
       const std::int32_t b = std::max(place.near_room, place.far_room);
       auto& pair = pairs.try_emplace({a, b}, ThinWallScores::Pair{a, b}).first->second;
       pair.area_m2 += area;
-      pair.missing_m2 += place.kept ? 0 : area;
-      if (!place.kept) {
+      const bool missing = !place.kept && !place.opening;
+      pair.missing_m2 += missing ? area : 0;
+      if (missing) {
         out.lost.push_back({a, b, place.middle, truth_tree.unit_normal(samples[i].triangle), area, wall});
       }
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages/graphcut/energy.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -12,6 +13,12 @@ namespace {
 
 double quantised(double value) {
   return std::nearbyint(value / EnergyTerms::kQuantum_m3) * EnergyTerms::kQuantum_m3;
+}
+
+/// What is charged of a face of which `omega` was seen.
+double unseen(double omega) {
+  constexpr double kWhole = 0.4;  // of a wall; the paper's 1 gave up walls behind furniture, and glazed ones
+  return std::max(0.0, 1 - omega / kWhole);
 }
 
 bool is_empty(const std::vector<std::uint8_t>& label, std::int64_t cell) {
@@ -42,7 +49,7 @@ EnergyTerms energy_terms(const CellComplex& complex, const FaceWeights& weights,
     const double omega = face.wall ? weights.wall_omega[face.index] : weights.level_omega[face.index];
     const double implied = face.wall ? terms.wall_implied[face.index] : terms.level_implied[face.index];
     (face.wall ? energy.wall : energy.level)[face.index] =
-        quantised(mu_m * (1.0 - omega) * (1.0 - implied) * face.area);
+        quantised(mu_m * unseen(omega) * (1.0 - implied) * face.area);
   });
   return energy;
 }

@@ -10,7 +10,7 @@ using namespace roomcut;
 StageInfo info() {
   StageInfo stage;
   stage.name = "graphcut";
-  stage.revision = 2;
+  stage.revision = 3;
   stage.summary = "Labels every cell empty or solid by one exact minimum cut";
   stage.inputs = {{"cells", "50_partition/cells.h5", "The cell complex"},
                   {"weights", "55_weigh_faces/weights.h5", "Coverage of its faces"},

@@ -143,11 +143,36 @@ void place_others(const LineFaces& faces, std::vector<Panel>& panels) {
   }
 }
 
-/// The line's faces without those of other groups, cut to the hull of what is left.
-LinePart part_of(const LineFaces& faces, const std::vector<Panel>& panels, int group) {
+/// The group of every cell of the raster: that of its panel, or of the nearest one in its layer. Where the
+/// first cut saw no wall the second still needs a line to find one. -1 in layers without a panel.
+std::vector<int> spread_groups(const LineFaces& faces, const std::vector<Panel>& panels) {
+  std::vector<int> group(faces.side.size(), -1);
+  for (const Panel& panel : panels) {
+    for (const std::size_t cell : panel.cells) {
+      group[cell] = panel.group;
+    }
+  }
+  std::vector<std::size_t> known;  // bins
+  for (std::size_t layer = 0; layer < faces.layers; ++layer) {
+    known.clear();
+    for (std::size_t bin = 0; bin < faces.bins; ++bin) {
+      if (group[bin * faces.layers + layer] >= 0) known.push_back(bin);
+    }
+    std::size_t next = 0;
+    for (std::size_t bin = 0; bin < faces.bins && !known.empty(); ++bin) {
+      while (next + 1 < known.size() && known[next + 1] <= bin) ++next;
+      const bool after =
+          next + 1 < known.size() && known[next] < bin && known[next + 1] - bin < bin - known[next];
+      group[bin * faces.layers + layer] = group[known[next + (after ? 1 : 0)] * faces.layers + layer];
+    }
+  }
+  return group;
+}
+
+/// The line's faces without those of other groups, cut to the hull of what is the group's.
+LinePart part_of(const LineFaces& faces, const std::vector<Panel>& panels, const std::vector<int>& spread,
+                 int group) {
   LinePart part{faces, {}};
-  std::size_t first = faces.bins;
-  std::size_t last = 0;
   part.faces.area_m2 = 0;
   std::vector<std::int8_t> side(faces.side.size(), 0);
   for (const Panel& panel : panels) {
@@ -158,10 +183,12 @@ LinePart part_of(const LineFaces& faces, const std::vector<Panel>& panels, int g
     part.observations.insert(part.observations.end(), panel.observations.begin(), panel.observations.end());
     for (const std::size_t cell : panel.cells) {
       side[cell] = faces.side[cell];
-      first = std::min(first, cell / faces.layers);
-      last = std::max(last, cell / faces.layers);
     }
   }
+  const auto begin = std::find(spread.begin(), spread.end(), group);
+  const auto end = std::find(spread.rbegin(), spread.rend(), group).base();
+  const std::size_t first = static_cast<std::size_t>(begin - spread.begin()) / faces.layers;
+  const std::size_t last = static_cast<std::size_t>(end - 1 - spread.begin()) / faces.layers;
   part.faces.bins = last - first + 1;
   part.faces.t0 = faces.t0 + static_cast<double>(first) * faces.bin_m;
   part.faces.t1 = faces.t0 + static_cast<double>(last + 1) * faces.bin_m;
@@ -193,9 +220,10 @@ std::vector<LinePart> split_line(const LineFaces& faces, const std::vector<Obser
     return {{faces, observations}};
   }
   place_others(faces, panels);
+  const std::vector<int> spread = spread_groups(faces, panels);
   std::vector<LinePart> parts;
   for (int group = 0; group < groups; ++group) {
-    parts.push_back(part_of(faces, panels, group));
+    parts.push_back(part_of(faces, panels, spread, group));
   }
   std::stable_sort(parts.begin(), parts.end(),
                    [](const LinePart& a, const LinePart& b) { return a.faces.area_m2 > b.faces.area_m2; });

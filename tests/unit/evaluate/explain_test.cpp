@@ -230,6 +230,19 @@ TEST(Explain, ALostWallSaysWhetherItHadCells) {
   EXPECT_NEAR(of(none.extra_m3, Cause::kLinesMissing) + of(none.extra_m3, Cause::kLinesMisplaced), 0.5, 0.03);
 }
 
+TEST(Explain, AnOpeningAsWideAsTheWallJoinsNoRoomsAMissingWallDoes) {
+  TriangleMesh truth = box({1, 1, 0}, {3, 3, 2.5});
+  append(truth, box({3.1, 1, 0}, {4, 3, 2.5}));
+  const CellComplex complex = grid({0, 1, 3, 3.1, 4, 5}, kY, kZ);
+  const auto closed =
+      labelled(complex, {{Vec3(1, 1, 0), Vec3(3, 3, 2.5)}, {Vec3(3.1, 1, 0), Vec3(4, 3, 2.5)}});
+  const auto missing = labelled(complex, {kRoomBox});
+  const EvaluateParams params{0.05, 0.05};
+  EXPECT_TRUE(evaluate(kRoom, truth, {}, params, &closed).merged.empty());
+  EXPECT_LT(evaluate(kRoom, truth, {}, params, &closed).thin.wall_kept_m2, 1e-9);
+  EXPECT_EQ(evaluate(kRoom, truth, {}, params, &missing).merged.size(), 1U);
+}
+
 TEST(Explain, FollowsTheFrame) {
   const Vec3 by(100, -50, 7);
   LabelledCells cells = labelled(grid(kX, kY, kZ), {kRoomBox});

@@ -28,14 +28,26 @@ TEST(Graphcut, OneCubeIsEmptyInsideAndSolidOutside) {
   std::vector<float> beta(complex.cells(), 0.01F);
   beta.at(middle_of(complex)) = 0.99F;
   FaceWeights weights = no_weights(complex);
-  weights.wall_omega.assign(weights.wall_omega.size(), 0.95F);
-  weights.level_omega.assign(weights.level_omega.size(), 0.95F);
+  weights.wall_omega.assign(weights.wall_omega.size(), 0.38F);
+  weights.level_omega.assign(weights.level_omega.size(), 0.38F);
   const Graphcut result = graphcut(complex, weights, terms_of(complex, beta), {});
   EXPECT_EQ(result.empty_cells, 1);
   EXPECT_EQ(result.labels.label[middle_of(complex)], static_cast<std::uint8_t>(Label::kEmpty));
   EXPECT_NEAR(result.empty_m3, 1.0, 1e-12);
   EXPECT_NEAR(result.labels.data_m3, 27 * 0.01, 1e-6);
   EXPECT_NEAR(result.labels.boundary_m3, 6 * 0.3 * 0.05, 1e-6);
+}
+
+TEST(Graphcut, AFaceOfWhichTwoFifthsWereSeenCostsNothing) {
+  const CellComplex complex = grid_complex(3, 3, 3);
+  std::vector<float> beta(complex.cells(), 0.01F);
+  beta.at(middle_of(complex)) = 0.99F;
+  FaceWeights weights = no_weights(complex);
+  for (const float omega : {0.4F, 0.7F, 1.0F}) {
+    weights.wall_omega.assign(weights.wall_omega.size(), omega);
+    weights.level_omega.assign(weights.level_omega.size(), omega);
+    EXPECT_EQ(graphcut(complex, weights, terms_of(complex, beta), {}).labels.boundary_m3, 0) << omega;
+  }
 }
 
 TEST(Graphcut, EnergyAddsUpAndTheMarginIsWhatAFlipCosts) {

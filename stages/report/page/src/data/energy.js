@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The energy that graphcut minimised, taken apart for one cell: E = sum of D(label) + mu * sum of (1 - omega) *
-// (1 - implied) * A over the faces between different labels (stages/graphcut/README.md).
+// The energy that graphcut minimised, taken apart for one cell: E = sum of D(label) + mu * sum of
+// unseen(omega) * (1 - implied) * A over the faces between different labels (stages/graphcut/README.md).
+
+const WHOLE = 0.4; // a face of which that much was seen costs nothing
 
 /**
  * The faces of a cell: where, what covers them, and the cell beyond (-1: outside, solid).
@@ -47,7 +49,7 @@ export function facesOf(complex, cell) {
 
 /** What a face costs when the labels on its two sides differ [m^3]. */
 export function boundaryCost(face, mu) {
-  return mu * (1 - face.omega) * (1 - face.implied) * face.area;
+  return mu * Math.max(0, 1 - face.omega / WHOLE) * (1 - face.implied) * face.area;
 }
 
 /** The length mu of the labelling [m]; NaN when the labels do not tell. */
