@@ -17,7 +17,7 @@ double quantised(double value) {
 
 /// What is charged of a face of which `omega` was seen.
 double unseen(double omega) {
-  constexpr double kWhole = 0.4;  // of a wall; the paper's 1 gave up walls behind furniture, and glazed ones
+  constexpr double kWhole = 0.3;  // of a wall; the paper's 1 gave up walls behind furniture, and glazed ones
   return std::max(0.0, 1 - omega / kWhole);
 }
 

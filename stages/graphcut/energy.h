@@ -11,7 +11,7 @@ namespace roomcut {
 /// The energy of paper §2 as a sum of capacities on the faces and cells of the complex, in m^3:
 ///   E = sum over cells of D(label) + mu * sum over faces of unseen(omega) * (1 - implied) * area * [labels
 ///   differ],
-/// unseen = 1 - omega / 0.4, not below 0: where 40 % of a face was seen, the rest hides behind furniture, or
+/// unseen = 1 - omega / 0.3, not below 0: where 30 % of a face was seen, the rest hides behind furniture, or
 /// is a window, a door or a shadow. Beyond the bounding box all is solid. Every term is rounded to kQuantum,
 /// so that sums of terms are exact in double (up to 8e6 m^3): the minimum does not depend on the order of
 /// summation, and the cut's flow equals its energy.

@@ -28,8 +28,8 @@ TEST(Graphcut, OneCubeIsEmptyInsideAndSolidOutside) {
   std::vector<float> beta(complex.cells(), 0.01F);
   beta.at(middle_of(complex)) = 0.99F;
   FaceWeights weights = no_weights(complex);
-  weights.wall_omega.assign(weights.wall_omega.size(), 0.38F);
-  weights.level_omega.assign(weights.level_omega.size(), 0.38F);
+  weights.wall_omega.assign(weights.wall_omega.size(), 0.285F);
+  weights.level_omega.assign(weights.level_omega.size(), 0.285F);
   const Graphcut result = graphcut(complex, weights, terms_of(complex, beta), {});
   EXPECT_EQ(result.empty_cells, 1);
   EXPECT_EQ(result.labels.label[middle_of(complex)], static_cast<std::uint8_t>(Label::kEmpty));
@@ -38,12 +38,12 @@ TEST(Graphcut, OneCubeIsEmptyInsideAndSolidOutside) {
   EXPECT_NEAR(result.labels.boundary_m3, 6 * 0.3 * 0.05, 1e-6);
 }
 
-TEST(Graphcut, AFaceOfWhichTwoFifthsWereSeenCostsNothing) {
+TEST(Graphcut, AFaceOfWhichThreeTenthsWereSeenCostsNothing) {
   const CellComplex complex = grid_complex(3, 3, 3);
   std::vector<float> beta(complex.cells(), 0.01F);
   beta.at(middle_of(complex)) = 0.99F;
   FaceWeights weights = no_weights(complex);
-  for (const float omega : {0.4F, 0.7F, 1.0F}) {
+  for (const float omega : {0.3F, 0.7F, 1.0F}) {
     weights.wall_omega.assign(weights.wall_omega.size(), omega);
     weights.level_omega.assign(weights.level_omega.size(), omega);
     EXPECT_EQ(graphcut(complex, weights, terms_of(complex, beta), {}).labels.boundary_m3, 0) << omega;

@@ -2,7 +2,7 @@
 // The energy that graphcut minimised, taken apart for one cell: E = sum of D(label) + mu * sum of
 // unseen(omega) * (1 - implied) * A over the faces between different labels (stages/graphcut/README.md).
 
-const WHOLE = 0.4; // a face of which that much was seen costs nothing
+const WHOLE = 0.3; // a face of which that much was seen costs nothing
 
 /**
  * The faces of a cell: where, what covers them, and the cell beyond (-1: outside, solid).

@@ -85,7 +85,7 @@ function beyondOf(complex, cell) {
   return [
     make("h3", { text: "Its faces" }),
     table(["", "m²", "ω", "implied", "points", "beyond", "m³"], rows),
-    make("p", { class: "quiet", text: `ω is the share of a face that points cover. Implied: the unseen other side of a wall or slab that was seen. A face costs μ (1 − ω / 0.4) (1 − implied) area, nothing when 40 % of it was seen, μ = ${short(mu)} m, when its two sides have different labels.` }),
+    make("p", { class: "quiet", text: `ω is the share of a face that points cover. Implied: the unseen other side of a wall or slab that was seen. A face costs μ (1 − ω / 0.3) (1 − implied) area, nothing when 30 % of it was seen, μ = ${short(mu)} m, when its two sides have different labels.` }),
   ];
 }
 
