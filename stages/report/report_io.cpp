@@ -70,6 +70,7 @@ std::vector<StageFile> report_inputs() {
           {"weights", "90_final/weights.h5", "the weights of their faces", true},
           {"terms", "90_final/data_terms.h5", "their data terms", true},
           {"labels", "90_final/labels.h5", "their labels", true},
+          {"openings", "95_find_openings/openings.geojson", "the openings", true},
           {"model", "model.ply", "the model", true},
           {"summary", "summary.json", "its summary", true}};
 }

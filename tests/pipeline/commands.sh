@@ -139,9 +139,11 @@ open(sys.argv[1], "wb").write(content)' "$work/model.ply"
 flaw model.ply N06 '' python3 -c '
 import sys
 content = bytearray(open(sys.argv[1], "rb").read())
-content[content.index(b"end_header\n") + 11 + 7] ^= 0x80  # x of the first vertex: mirrored
+end = content.index(b"end_header\n") + 11
+face = end + 24 * int(content[:end].decode().split("element vertex ")[1].split()[0]) + 1
+content[face : face + 8] = content[face + 4 : face + 8] + content[face : face + 4]  # the first triangle: turned around
 open(sys.argv[1], "wb").write(content)' "$work/model.ply"
-flaw 20_slice/slices.h5 A0 '' cp "$work/50_partition/cells.h5" "$work/20_slice/slices.h5"
+flaw 20_slice/slices.h5 A05 '' cp "$work/50_partition/cells.h5" "$work/20_slice/slices.h5"
 cp "$scan" "$place/scan" && printf ' ' >> "$scan"
 refused "verify finds another scan" mk verify
 says "… and says so" 'error\[A05\] 10_ingest/cloud.h5: was made from other bytes than '
