@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# usage: pipeline.sh run|status|verify|view|edit-lines|diff-lines|drop-edit|evaluate|plot|clean|rerun [NAME …]
+# usage: pipeline.sh run|status|verify|view|edit-lines|diff-lines|drop-edit|layers|evaluate|plot|clean|rerun [NAME …]
 # One command on one work folder; the Makefile calls it. Reads SCAN, WORK, CONFIG, BUILD, JOBS, UP, UNIT, STATIONS, TRUTH, PORT, QUIET
 # from the environment. Works with any characters in file names: every name is quoted, and Make sees relative names only.
 set -eu
@@ -85,7 +85,7 @@ take_lock() {
   exec 9> stamps/.lock
   flock -n 9 || { echo "waiting for another make in $WORK" >&2; flock 9; }
   # What a make that was killed had not finished writing.
-  rm -rf inputs/*.new params/.new params/.asked.new edits/.*.new
+  rm -rf inputs/*.new params/.new params/.asked.new edits/.*.new pictures/*.new
 }
 
 # The scan enters by its bytes. They are read again only when size, time or file changed, and when an earlier run knows their
@@ -224,7 +224,34 @@ edit_lines() {
   cp 40_accept_lines/wall_lines.geojson edits/.wall_lines.geojson.new
   mv -f edits/.wall_lines.geojson.new edits/wall_lines.geojson
   echo "edit this file, one line per wall: $WORK/edits/wall_lines.geojson"
+  echo "beneath it, for QGIS: edits/slice_<k>.png, where points are in each slice"
   echo "then: make diff-lines to see what changes, make run to apply it, make drop-edit to go back"
+}
+
+# The evidence beneath the lines, for QGIS: rasters that say where they lie, beside the file that is edited.
+draw_layers() {
+  rm -f edits/slice_*.png edits/slice_*.pgw edits/slice_*.png.aux.xml
+  "$BIN/report" --work . --params params/report.json --only layers --log logs/layers.json -q
+}
+
+# The pictures of one stage, as SVG and as PNG.
+plot() {
+  [ "$1" != report ] || set pictures
+  command -v rsvg-convert > /dev/null ||
+    fail "make plot: rsvg-convert is not installed" "make deps installs it (Debian's librsvg2-bin)"
+  "$BIN/report" --work . --params params/report.json --only "$1" --log logs/plot.json -q > stamps/.pictures
+  while IFS= read -r file; do
+    name=${file%.svg}
+    # Those that are rasters by nature have their PNG already.
+    if [ "$name" != "$file" ] && ! grep -qxF "$name.png" stamps/.pictures; then
+      rsvg-convert --unlimited --background-color white --output "$name.new" "$file"
+      mv -f "$name.new" "$name.png"
+      echo "$name.png" >> stamps/.pictures
+    fi
+  done < stamps/.pictures
+  [ -s stamps/.pictures ] || echo "there is nothing to draw of $1 yet"
+  sort stamps/.pictures | while IFS= read -r file; do echo "$WORK/$file"; done
+  rm -f stamps/.pictures
 }
 
 drop_edit() {
@@ -268,7 +295,7 @@ command=$1
 shift
 find_work_folder
 case $command in
-  run | edit-lines | evaluate | rerun | plot)
+  run | edit-lines | layers | evaluate | rerun | plot)
     [ -d "$WORK/inputs" ] || [ -e "$SCAN" ] || { echo "error[C01] $SCAN: there is no such file" >&2; exit 3; } ;;
 esac
 for name in "$@"; do known_stage "$name"; done
@@ -287,7 +314,13 @@ case $command in
       "go on with it, or make drop-edit first (it is moved aside, not deleted)"
     refresh
     rules accept_lines
+    draw_layers
     edit_lines ;;
+  layers)
+    refresh
+    rules slice
+    draw_layers
+    ls "$WORK"/edits/slice_*.png ;;
   diff-lines)
     refresh
     rules detect_lines
@@ -308,16 +341,6 @@ case $command in
   plot)
     refresh
     rules "$1"
-    # Some stages are seen best in the picture of another one.
-    case $1 in
-      ingest) only=ingest files=cloud ;;
-      slice) only=slice files=slice_histogram ;;
-      detect_lines | accept_lines) only=detect_lines files=slice_[0-9] ;;
-      partition | weigh_faces | raycast | graphcut) only=graphcut files=cells ;;
-      refine_lines | final_*) only=refine_lines files=refine_lines ;;
-      *) only=extract files='[ms][ot][do][er][le]' ;;
-    esac
-    "$BIN/report" --work . --params params/report.json --only $only --log logs/plot.json -q
-    ls "$WORK"/pictures/$files* ;;
+    plot "$1" ;;
   *) fail "pipeline.sh: no command $command" "see make help" ;;
 esac

@@ -100,6 +100,54 @@ mk edit-lines && mk drop-edit
 check "a second drop-edit keeps the first" test -s "$work/edits/old/wall_lines.1.geojson" -a -s "$work/edits/old/wall_lines.2.geojson"
 mk run
 
+# layers for QGIS, beside the file that is edited (where they lie: tests/contract/gdal_layers_test.py)
+rm -f "$work"/edits/slice_*
+touch "$work/edits/slice_99.png"
+check "layers" mk layers
+says "… says which" "^$work/edits/slice_0.png\$"
+for ending in png pgw png.aux.xml; do check "… with its $ending" test -s "$work/edits/slice_0.$ending"; done
+check "… and takes away those of former slices" test ! -e "$work/edits/slice_99.png"
+rm -f "$work"/edits/slice_*
+mk edit-lines && mk drop-edit
+check "edit-lines makes them too" test -s "$work/edits/slice_0.png" -a -s "$work/edits/slice_0.pgw"
+
+# plot-STAGE: SVG and PNG of every stage, with words that say what they show
+whole() { # whole LIST FOLDER: the files of the list are all there are, SVGs have words, PNGs are whole and not blank
+  python3 - "$1" "$2" << 'P'
+import os, sys, xml.etree.ElementTree, zlib
+named = open(sys.argv[1]).read().split("\n")[:-1]
+there = [os.path.join(sys.argv[2], name) for name in os.listdir(sys.argv[2])]
+assert sorted(named) == sorted(there), (named, there)
+for path in named:
+    content = open(path, "rb").read()
+    if path.endswith(".svg"):
+        texts = [text for text in xml.etree.ElementTree.fromstring(content).iter() if text.tag.endswith("}text")]
+        assert len(texts) >= 2 and all(text.text for text in texts[:2]), path
+    else:
+        assert content.startswith(b"\x89PNG") and content[-8:-4] == b"IEND", path
+        at, pixels = 8, b""
+        while at < len(content):
+            size = int.from_bytes(content[at : at + 4], "big")
+            pixels += content[at + 8 : at + 8 + size] if content[at + 4 : at + 8] == b"IDAT" else b""
+            at += 12 + size
+        assert len(set(zlib.decompress(pixels))) > 3, path + ": one colour"
+P
+}
+for stage in $ALL; do
+  rm -rf "$work/pictures"
+  check "plot-$stage" mk "plot-$stage"
+  grep '^/' "$output" > "$place/drawn"
+  svgs=$(grep -c '\.svg$' "$place/drawn")
+  if [ "$svgs" -ge 1 ] && [ "$svgs" -eq "$(grep -c '\.png$' "$place/drawn")" ]; then ok "… a PNG for each SVG"; else
+    not_ok "… a PNG for each SVG" "$(cat "$output")"
+  fi
+  check "… all whole, not blank, nothing besides" whole "$place/drawn" "$work/pictures"
+done
+rm "$work/90_final/labels.h5"
+mk plot-final_graphcut
+check "plot-STAGE makes first what is missing" test -s "$work/90_final/labels.h5"
+mk rerun-report
+
 # verify: every kind of flaw
 check "verify finds all in order" mk verify
 [ "$(grep -c '^ok  ' "$output")" -ge 17 ] && ok "… in every file" || not_ok "… in every file" "$(cat "$output")"

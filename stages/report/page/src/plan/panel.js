@@ -262,5 +262,5 @@ export class PlanPanel {
 export function roomOf(run, cell) {
   const room = run.storeys?.room[cell] ?? -1;
   const rooms = run.facts.summary?.rooms ?? [];
-  return room >= 0 && rooms.length === run.storeys.rooms.length ? rooms[room] : null;
+  return rooms[room] ?? null;
 }

@@ -135,7 +135,9 @@ export function whyLine(line, refined) {
   if (p.note) {
     parts.push(make("p", { text: p.note }));
   }
-  if (refined) {
+  if (refined?.properties.locked) {
+    parts.push(make("p", { class: "quiet", text: "Locked: refinement left it where it is." }));
+  } else if (refined) {
     parts.push(make("p", { class: "quiet", text: `After refinement: offset ± ${number(1e3 * refined.properties.sigma_offset_m, 2)} mm, rms ${number(1e3 * refined.properties.rms_m, 1)} mm.` }));
   } else if (refined === null) {
     parts.push(make("p", { class: "quiet", text: "It carries no wall of the first cut, so refinement dropped it." }));

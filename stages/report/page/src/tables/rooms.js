@@ -58,7 +58,8 @@ function pairs(object) {
 
 /** Area, perimeter and volume of each room with how well they are known. */
 function uncertainTexts(rooms, known) {
-  const text = (value, sigma, { unknown }) => `${number(value, 3)} ± ${number(kInterval * sigma, 3)}${unknown ? " ?" : ""}`;
+  const interval = (sigma) => (sigma > 0 && sigma < 0.001 ? "0.001" : number(sigma, 3)); // rounded up: never better than it is
+  const text = (value, sigma, { unknown }) => `${number(value, 3)} ± ${interval(kInterval * sigma)}${unknown ? " ?" : ""}`;
   return {
     area_m2: (i) => text(rooms[i].area_m2, known[i].area, known[i]),
     perimeter_m: (i) => text(known[i].perimeter, known[i].perimeterSigma, known[i]),
@@ -78,7 +79,7 @@ export function showRooms(run) {
     host.append(make("p", { class: "quiet", text: "There is no model yet: make run goes on." }));
     return;
   }
-  const known = run.complex && run.storeys.rooms.length === summary.rooms.length ? roomUncertainties(run.complex, run.storeys.rooms, run.lines.refined) : null;
+  const known = run.storeys?.rooms.length > 0 ? roomUncertainties(run.complex, run.storeys.rooms, run.lines.refined) : null;
   host.append(make("h3", { text: "Storeys" }), listTable(summary.storeys));
   host.append(make("h3", { text: "Rooms" }), listTable(summary.rooms, known ? uncertainTexts(summary.rooms, known) : {}));
   if (known) {
