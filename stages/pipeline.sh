@@ -1,15 +1,15 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# usage: pipeline.sh run|status|verify|view|edit-lines|diff-lines|drop-edit|layers|evaluate|plot|clean|rerun [NAME …]
-# One command on one work folder; the Makefile calls it. Reads SCAN, WORK, CONFIG, BUILD, JOBS, UP, UNIT, STATIONS, TRUTH, PORT, QUIET
-# from the environment. Works with any characters in file names: every name is quoted, and Make sees relative names only.
+# usage: pipeline.sh run|status|verify|view|edit-lines|diff-lines|drop-edit|layers|evaluate|compare|plot|clean|rerun [NAME …]
+# One command on one work folder; the Makefile calls it. Reads SCAN, WORK, CONFIG, BUILD, JOBS, UP, UNIT, STATIONS, TRUTH, PORT, QUIET,
+# A, B from the environment. Works with any characters in file names: every name is quoted, and Make sees relative names only.
 set -eu
 
 # Every process that this script starts costs milliseconds, a run should cost a quarter of a second: builtins where they do.
 root=$(cd "${0%/*}/.." && pwd)
 stages="ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines find_openings extract report"
 : "${SCAN:=}" "${WORK:=}" "${CONFIG:=}" "${BUILD:=$root/build}" "${JOBS:=}" "${UP:=}" "${UNIT:=}" "${STATIONS:=}" "${TRUTH:=}"
-: "${PORT:=}" "${QUIET:=}"
+: "${PORT:=}" "${QUIET:=}" "${A:=}" "${B:=}"
 
 fail() {
   echo "error[U01] $1" >&2
@@ -274,6 +274,28 @@ view() {
   exec "$BIN/view" --work "$WORK" --port "${PORT:-0}" --pipeline "$root/stages/pipeline.sh" -q
 }
 
+# Two work folders as they lie; what is found goes into that of B. The distance of the models is evaluate's, A taken for the truth.
+compare() {
+  for side in A B; do
+    eval "folder=\$$side"
+    [ -n "$folder" ] || fail "make compare: no $side given" "name two work folders: make compare A=work/x B=work/y"
+    [ -d "$folder" ] || fail "make compare: $folder: there is no such folder" "name two work folders: make compare A=work/x B=work/y"
+  done
+  A=$(cd "$A" && pwd)
+  B=$(cd "$B" && pwd)
+  [ -x "$BUILD/bin/compare" ] || fail "$BUILD/bin: the programs are not built" "make build"
+  found=$B/compare/${A##*/}
+  mkdir -p "$found" 2> /dev/null || { echo "error[O01] $found: the folder cannot be made" >&2; exit 5; }
+  rm -f "$found/distance.json" "$found/distance.png"
+  if [ -f "$A/model.ply" ] && [ -f "$B/model.ply" ]; then
+    "$BUILD/bin/evaluate" --work "$found" --model "$B/model.ply" --truth "$A/model.ply" --scores "$found/distance.json" \
+      --coloured "$found/distance.ply" --picture "$found/distance.png" ${JOBS:+--threads "$JOBS"} -q
+  fi
+  "$BUILD/bin/compare" --work "$found" --a "$A" --b "$B" ${QUIET:+-q}
+  [ -n "$QUIET" ] || echo "all of it, with plans side by side: $found/comparison.html (and .json)"
+  exit 0
+}
+
 # A stage again, and of what follows only what was made before and is changed by it.
 rerun() {
   if [ -f "stamps/$1" ]; then mv -f "stamps/$1" "stamps/$1.before"; fi
@@ -293,6 +315,10 @@ clean() {
 
 command=$1
 shift
+if [ "$command" = compare ]; then
+  BUILD=$(absolute "$BUILD")
+  compare
+fi
 find_work_folder
 case $command in
   run | edit-lines | layers | evaluate | rerun | plot)

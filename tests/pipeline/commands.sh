@@ -148,6 +148,46 @@ mk plot-final_graphcut
 check "plot-STAGE makes first what is missing" test -s "$work/90_final/labels.h5"
 mk rerun-report
 
+# compare: two runs of one scan, one of them with another dial and a wall moved by 12 cm
+other="$place/an other"
+compare_says() { # compare_says NAME PYTHON: a condition on comparison.json, `d`
+  if python3 -c 'import json, sys; d = json.load(open(sys.argv[1])); sys.exit(not (eval(sys.argv[2])))' "$other/compare/w o r k/comparison.json" "$2"; then
+    ok "$1"
+  else
+    not_ok "$1" "$(cat "$output")"
+  fi
+}
+cp -a "$work" "$other"
+check "compare of a run with its copy" mk compare A="$work" B="$other"
+compare_says "… finds the same scan, parameters and lines" 'd["same_scan"] and not d["parameters"] and not d["lines"]["moved"] and d["lines"]["same"] >= 4'
+compare_says "… and the same model" 'd["distance"]["a_to_b"]["hausdorff_m"] < 1e-9 and abs(d["distance"]["a_m3"] - d["distance"]["common_m3"]) < 1e-9'
+mkdir -p "$other/edits"
+cp "$other/40_accept_lines/wall_lines.geojson" "$other/edits/wall_lines.geojson"
+change "$other/edits/wall_lines.geojson" '
+east = max(d["features"], key=lambda line: min(p[0] for p in line["geometry"]["coordinates"]))
+for point in east["geometry"]["coordinates"]: point[0] += 0.12
+east["properties"]["locked"] = True'
+config_text 'graphcut:\n  mu_m: 0.35\n'
+first_work=$work && work=$other
+mk run
+work=$first_work
+config_text 'graphcut:\n  mu_m: 0.3\n'
+digests "$work" > "$place/before"
+check "compare of two runs" mk compare A="$work" B="$other"
+digests "$work" > "$place/after"
+check "… leaves the first as it was" cmp "$place/before" "$place/after"
+says "… says the dial" '^ +graphcut\.mu_m +0\.3 +0\.35$'
+says "… and the wall" '^ +w[0-9]+ +w[0-9]+ +moved +1[12][0-9]\.[0-9] '
+compare_says "… the wall moved by as much" 'sum(abs(m["offset_m"] - 0.12) < 0.005 for m in d["lines"]["moved"]) == 1 and d["b"]["edited"] and not d["a"]["edited"]'
+compare_says "… and the model with it" 'abs(d["distance"]["b_to_a"]["hausdorff_m"] - 0.12) < 0.01 and d["distance"]["b_m3"] > d["distance"]["a_m3"] + 0.5'
+compare_says "… only B is empty there" 'd["distance"]["a_m3"] - d["distance"]["common_m3"] < 0.1 < d["distance"]["b_m3"] - d["distance"]["common_m3"]'
+compare_says "… and the room is larger" 'len(d["rooms"]["both"]) == 1 and d["rooms"]["both"][0]["area_m2"][1] > d["rooms"]["both"][0]["area_m2"][0] + 0.2'
+check "… with a page" grep -q 'Storey 0, floor at' "$other/compare/w o r k/comparison.html"
+refused "compare without A is refused" mk compare B="$other"
+says "… with a remedy" 'hint: name two work folders'
+refused "compare with a folder that holds no run is refused" mk compare A="$place" B="$other"
+says "… naming it" "error\\[A01\\] $place/10_ingest/cloud.h5"
+
 # verify: every kind of flaw
 check "verify finds all in order" mk verify
 [ "$(grep -c '^ok  ' "$output")" -ge 17 ] && ok "… in every file" || not_ok "… in every file" "$(cat "$output")"
