@@ -8,7 +8,7 @@ MAKEFLAGS += --no-print-directory --no-builtin-rules
 
 # From the command line; passed on through the environment, so that names may hold spaces and any letters.
 BUILD ?= build
-export SCAN WORK CONFIG BUILD JOBS UP UNIT STATIONS TRUTH PORT QUIET ONLY BASE OUT
+export SCAN WORK CONFIG BUILD JOBS UP UNIT STATIONS TRUTH PORT QUIET ONLY BASE OUT A B
 
 stages := ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines \
           final_partition final_weigh_faces final_raycast final_graphcut find_openings extract report
@@ -18,7 +18,7 @@ generator = $$(command -v ninja > /dev/null && echo "-G Ninja")
 quiet_make = env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL
 pipeline = +@sh stages/pipeline.sh
 
-.PHONY: help deps build test demo run status verify view edit-lines diff-lines drop-edit evaluate accuracy accuracy-walls bench tidy format ready \
+.PHONY: help deps build test demo run status verify view edit-lines diff-lines drop-edit layers evaluate compare accuracy accuracy-walls bench tidy format ready \
         $(stages) $(stages:%=rerun-%) $(stages:%=clean-%) $(stages:%=plot-%)
 
 help:
@@ -30,11 +30,13 @@ help:
 	'make run SCAN=office.ply      the whole pipeline into work/office/' \
 	'make STAGE SCAN=…             up to and including one stage' \
 	'make rerun-STAGE SCAN=…       that stage again, and of what follows only what it changes' \
-	'make plot-STAGE | clean-STAGE pictures of what is there up to a stage | delete what a stage wrote' \
+	'make plot-STAGE | clean-STAGE the result of a stage as SVG and PNG | delete what a stage wrote' \
 	'make status | verify SCAN=…   what would run, and why | compute all digests again' \
 	'make view SCAN=…              the report in the browser, served on this machine only; lines edited there are saved' \
 	'make edit-lines SCAN=…        copy the lines to work/office/edits/wall_lines.geojson, to be edited' \
+	'make layers SCAN=…            for QGIS: where points are in each slice, beside the lines (edit-lines does so too)' \
 	'make diff-lines | drop-edit   what the edit changes | move it aside' \
+	'make compare A=work/x B=work/y  two runs side by side: parameters, lines, rooms, models; a page and JSON' \
 	'make report | evaluate TRUTH=truth.off | bench | tidy | format' \
 	'make accuracy                 scores of scenes with known truth, in one table; ONLY="virtual uniform_house_*" some of' \
 	'                              them, BASE=old.json what changed since, OUT=file the JSON (work/accuracy/accuracy.json)' \
@@ -72,7 +74,7 @@ demo: build
 	  '  report.html             every stage in pictures' '  evaluate/scores.json    how far from the truth (truth.off)' \
 	  'Your own scan: make run SCAN=office.ply'
 
-run status verify view edit-lines diff-lines drop-edit evaluate: ready
+run status verify view edit-lines diff-lines drop-edit layers evaluate compare: ready
 	$(pipeline) $@
 
 $(stages): ready

@@ -77,7 +77,7 @@ $(eval $(call stage,final_graphcut,graphcut,90_final/labels.h5,90_final/cells.h5
 $(eval $(call stage,find_openings,find_openings,$(openings),90_final/cells.h5 90_final/labels.h5 $(cloud)))
 $(eval $(call stage,extract,extract,model.ply model.obj summary.json,$(final) $(openings)))
 $(eval $(call stage,report,report,report.html,$(cloud) $(slices) $(lines_30) 30_detect_lines/hough.h5 $(lines_40) $(cells) \
-  $(weights) $(terms) $(labels) $(lines_80) $(final) model.ply summary.json))
+  $(weights) $(terms) $(labels) $(lines_80) $(final) $(openings) model.ply summary.json))
 
 run: $(names) ; @:
 

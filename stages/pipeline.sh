@@ -1,15 +1,15 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# usage: pipeline.sh run|status|verify|view|edit-lines|diff-lines|drop-edit|evaluate|plot|clean|rerun [NAME …]
-# One command on one work folder; the Makefile calls it. Reads SCAN, WORK, CONFIG, BUILD, JOBS, UP, UNIT, STATIONS, TRUTH, PORT, QUIET
-# from the environment. Works with any characters in file names: every name is quoted, and Make sees relative names only.
+# usage: pipeline.sh run|status|verify|view|edit-lines|diff-lines|drop-edit|layers|evaluate|compare|plot|clean|rerun [NAME …]
+# One command on one work folder; the Makefile calls it. Reads SCAN, WORK, CONFIG, BUILD, JOBS, UP, UNIT, STATIONS, TRUTH, PORT, QUIET,
+# A, B from the environment. Works with any characters in file names: every name is quoted, and Make sees relative names only.
 set -eu
 
 # Every process that this script starts costs milliseconds, a run should cost a quarter of a second: builtins where they do.
 root=$(cd "${0%/*}/.." && pwd)
 stages="ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines find_openings extract report"
 : "${SCAN:=}" "${WORK:=}" "${CONFIG:=}" "${BUILD:=$root/build}" "${JOBS:=}" "${UP:=}" "${UNIT:=}" "${STATIONS:=}" "${TRUTH:=}"
-: "${PORT:=}" "${QUIET:=}"
+: "${PORT:=}" "${QUIET:=}" "${A:=}" "${B:=}"
 
 fail() {
   echo "error[U01] $1" >&2
@@ -85,7 +85,7 @@ take_lock() {
   exec 9> stamps/.lock
   flock -n 9 || { echo "waiting for another make in $WORK" >&2; flock 9; }
   # What a make that was killed had not finished writing.
-  rm -rf inputs/*.new params/.new params/.asked.new edits/.*.new
+  rm -rf inputs/*.new params/.new params/.asked.new edits/.*.new pictures/*.new
 }
 
 # The scan enters by its bytes. They are read again only when size, time or file changed, and when an earlier run knows their
@@ -224,7 +224,34 @@ edit_lines() {
   cp 40_accept_lines/wall_lines.geojson edits/.wall_lines.geojson.new
   mv -f edits/.wall_lines.geojson.new edits/wall_lines.geojson
   echo "edit this file, one line per wall: $WORK/edits/wall_lines.geojson"
+  echo "beneath it, for QGIS: edits/slice_<k>.png, where points are in each slice"
   echo "then: make diff-lines to see what changes, make run to apply it, make drop-edit to go back"
+}
+
+# The evidence beneath the lines, for QGIS: rasters that say where they lie, beside the file that is edited.
+draw_layers() {
+  rm -f edits/slice_*.png edits/slice_*.pgw edits/slice_*.png.aux.xml
+  "$BIN/report" --work . --params params/report.json --only layers --log logs/layers.json -q
+}
+
+# The pictures of one stage, as SVG and as PNG.
+plot() {
+  [ "$1" != report ] || set pictures
+  command -v rsvg-convert > /dev/null ||
+    fail "make plot: rsvg-convert is not installed" "make deps installs it (Debian's librsvg2-bin)"
+  "$BIN/report" --work . --params params/report.json --only "$1" --log logs/plot.json -q > stamps/.pictures
+  while IFS= read -r file; do
+    name=${file%.svg}
+    # Those that are rasters by nature have their PNG already.
+    if [ "$name" != "$file" ] && ! grep -qxF "$name.png" stamps/.pictures; then
+      rsvg-convert --unlimited --background-color white --output "$name.new" "$file"
+      mv -f "$name.new" "$name.png"
+      echo "$name.png" >> stamps/.pictures
+    fi
+  done < stamps/.pictures
+  [ -s stamps/.pictures ] || echo "there is nothing to draw of $1 yet"
+  sort stamps/.pictures | while IFS= read -r file; do echo "$WORK/$file"; done
+  rm -f stamps/.pictures
 }
 
 drop_edit() {
@@ -247,6 +274,28 @@ view() {
   exec "$BIN/view" --work "$WORK" --port "${PORT:-0}" --pipeline "$root/stages/pipeline.sh" -q
 }
 
+# Two work folders as they lie; what is found goes into that of B. The distance of the models is evaluate's, A taken for the truth.
+compare() {
+  for side in A B; do
+    eval "folder=\$$side"
+    [ -n "$folder" ] || fail "make compare: no $side given" "name two work folders: make compare A=work/x B=work/y"
+    [ -d "$folder" ] || fail "make compare: $folder: there is no such folder" "name two work folders: make compare A=work/x B=work/y"
+  done
+  A=$(cd "$A" && pwd)
+  B=$(cd "$B" && pwd)
+  [ -x "$BUILD/bin/compare" ] || fail "$BUILD/bin: the programs are not built" "make build"
+  found=$B/compare/${A##*/}
+  mkdir -p "$found" 2> /dev/null || { echo "error[O01] $found: the folder cannot be made" >&2; exit 5; }
+  rm -f "$found/distance.json" "$found/distance.png"
+  if [ -f "$A/model.ply" ] && [ -f "$B/model.ply" ]; then
+    "$BUILD/bin/evaluate" --work "$found" --model "$B/model.ply" --truth "$A/model.ply" --scores "$found/distance.json" \
+      --coloured "$found/distance.ply" --picture "$found/distance.png" ${JOBS:+--threads "$JOBS"} -q
+  fi
+  "$BUILD/bin/compare" --work "$found" --a "$A" --b "$B" ${QUIET:+-q}
+  [ -n "$QUIET" ] || echo "all of it, with plans side by side: $found/comparison.html (and .json)"
+  exit 0
+}
+
 # A stage again, and of what follows only what was made before and is changed by it.
 rerun() {
   if [ -f "stamps/$1" ]; then mv -f "stamps/$1" "stamps/$1.before"; fi
@@ -266,9 +315,13 @@ clean() {
 
 command=$1
 shift
+if [ "$command" = compare ]; then
+  BUILD=$(absolute "$BUILD")
+  compare
+fi
 find_work_folder
 case $command in
-  run | edit-lines | evaluate | rerun | plot)
+  run | edit-lines | layers | evaluate | rerun | plot)
     [ -d "$WORK/inputs" ] || [ -e "$SCAN" ] || { echo "error[C01] $SCAN: there is no such file" >&2; exit 3; } ;;
 esac
 for name in "$@"; do known_stage "$name"; done
@@ -287,7 +340,13 @@ case $command in
       "go on with it, or make drop-edit first (it is moved aside, not deleted)"
     refresh
     rules accept_lines
+    draw_layers
     edit_lines ;;
+  layers)
+    refresh
+    rules slice
+    draw_layers
+    ls "$WORK"/edits/slice_*.png ;;
   diff-lines)
     refresh
     rules detect_lines
@@ -308,16 +367,6 @@ case $command in
   plot)
     refresh
     rules "$1"
-    # Some stages are seen best in the picture of another one.
-    case $1 in
-      ingest) only=ingest files=cloud ;;
-      slice) only=slice files=slice_histogram ;;
-      detect_lines | accept_lines) only=detect_lines files=slice_[0-9] ;;
-      partition | weigh_faces | raycast | graphcut) only=graphcut files=cells ;;
-      refine_lines | final_*) only=refine_lines files=refine_lines ;;
-      *) only=extract files='[ms][ot][do][er][le]' ;;
-    esac
-    "$BIN/report" --work . --params params/report.json --only $only --log logs/plot.json -q
-    ls "$WORK"/pictures/$files* ;;
+    plot "$1" ;;
   *) fail "pipeline.sh: no command $command" "see make help" ;;
 esac

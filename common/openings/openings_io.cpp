@@ -10,6 +10,7 @@
 #include "common/artefact/artefact_check.h"
 #include "common/artefact/atomic_file.h"
 #include "common/artefact/json.h"
+#include "common/artefact/local_crs.h"
 #include "common/artefact/sha256.h"
 #include "common/errors/codes.h"
 
@@ -20,8 +21,6 @@ namespace roomcut {
 namespace {
 
 constexpr const char* kMember = "roomcut";
-/// GDAL, and with it QGIS, takes this name for a local system in metres and does not reproject.
-constexpr const char* kLocalCrs = "LOCAL_CS[\"scan frame (metres)\",UNIT[\"metre\",1]]";
 constexpr const char* kRemedy = "make it again: rerun find_openings";
 
 /// Six decimals whatever the locale.

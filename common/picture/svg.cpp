@@ -111,6 +111,14 @@ void Svg::image(const Eigen::Vector2d& low, const Eigen::Vector2d& high, const I
       base64(encode_png(picture)) + "\"/>\n";
 }
 
+void Svg::open(std::string_view tag, std::string_view attributes) {
+  body_.append("<").append(tag).append(attributes.empty() ? "" : " ").append(attributes).append(">\n");
+}
+
+void Svg::close(std::string_view tag) {
+  body_.append("</").append(tag).append(">\n");
+}
+
 std::string Svg::str() const {
   const Eigen::Vector2d size = scale_ * (high_ - low_);
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + fixed(size.x()) + "\" height=\"" +

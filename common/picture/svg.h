@@ -28,6 +28,10 @@ class Svg {
   /// A raster that fills the box [low, high], row 0 at the top.
   void image(const Eigen::Vector2d& low, const Eigen::Vector2d& high, const Image& picture);
 
+  /// What is drawn until close() is inside an element: open("g", "opacity=\"0.5\"").
+  void open(std::string_view tag, std::string_view attributes);
+  void close(std::string_view tag);
+
   /// The whole document; also valid inside an HTML page.
   std::string str() const;
 

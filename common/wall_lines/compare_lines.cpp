@@ -14,13 +14,13 @@ std::size_t find_id(const std::vector<WallLine>& lines, const std::string& id) {
   return static_cast<std::size_t>(found - lines.begin());
 }
 
+}  // namespace
+
 LineMove move_between(const WallLine& from, const WallLine& to) {
   const Line2 line = to.line();
   return {to.id, std::abs(line.distance(from.centre())), angle_between(line.theta, from.line().theta),
           end_distance(from, to)};
 }
-
-}  // namespace
 
 double end_distance(const WallLine& a, const WallLine& b) {
   const double straight = std::max((a.a - b.a).norm(), (a.b - b.b).norm());

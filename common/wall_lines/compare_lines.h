@@ -28,6 +28,9 @@ struct LineMove {
   double ends_m = 0;     ///< end_distance()
 };
 
+/// How far `to`, the same line elsewhere, lies from `from`; its id is that of `to`.
+LineMove move_between(const WallLine& from, const WallLine& to);
+
 struct LineDifferences {
   std::vector<std::string> same;
   std::vector<LineMove> moved;

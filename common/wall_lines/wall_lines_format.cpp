@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "common/artefact/artefact_check.h"
+#include "common/artefact/local_crs.h"
 #include "common/artefact/sha256.h"
 #include "common/wall_lines/wall_lines_io.h"
 
@@ -17,9 +18,6 @@ namespace roomcut {
 namespace {
 
 constexpr double kRadToDeg = 180.0 / std::numbers::pi;
-
-/// GDAL, and with it QGIS, takes this name for a local system in metres and does not reproject.
-constexpr const char* kLocalCrs = "LOCAL_CS[\"scan frame (metres)\",UNIT[\"metre\",1]]";
 
 constexpr std::array<std::pair<LineSource, std::string_view>, 4> kSources{
     {{LineSource::kDetected, "detected"},

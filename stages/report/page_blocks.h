@@ -13,7 +13,7 @@ namespace roomcut {
 // What is in them: page/README.md. Errors: those of the artefacts' readers.
 
 /// `run`: summary, levels, histogram, parameters of each stage, noise and density. `lines`: detected,
-/// accepted and refined wall lines as their files hold them.
+/// accepted and refined wall lines and the openings as their files hold them.
 void add_run_blocks(const StageRun& run, std::vector<PageBlock>& blocks);
 
 /// `logs`: times, memory, chosen values, counts and warnings of each stage, from logs/. The only block that

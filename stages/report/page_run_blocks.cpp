@@ -12,10 +12,21 @@ namespace roomcut {
 namespace {
 
 /// In the order of the pipeline; the names of the logs.
-constexpr std::array kStages = {"ingest",         "slice",           "detect_lines",      "accept_lines",
-                                "partition",      "weigh_faces",     "raycast",           "graphcut",
-                                "refine_lines",   "final_partition", "final_weigh_faces", "final_raycast",
-                                "final_graphcut", "extract"};
+constexpr std::array kStages = {"ingest",
+                                "slice",
+                                "detect_lines",
+                                "accept_lines",
+                                "partition",
+                                "weigh_faces",
+                                "raycast",
+                                "graphcut",
+                                "refine_lines",
+                                "final_partition",
+                                "final_weigh_faces",
+                                "final_raycast",
+                                "final_graphcut",
+                                "find_openings",
+                                "extract"};
 /// What a log says of a run apart from where and when it was.
 constexpr std::array kLogMembers = {"stage",   "revision", "version", "wall_s", "cpu_s",   "peak_memory_mb",
                                     "threads", "params",   "chosen",  "counts", "warnings"};
@@ -65,7 +76,7 @@ void add_run_blocks(const StageRun& run, std::vector<PageBlock>& blocks) {
   blocks.push_back(facts.finish());
 
   PageBlockBuilder lines("lines");
-  for (const char* input : {"detected", "lines", "refined"}) {
+  for (const char* input : {"detected", "lines", "refined", "openings"}) {
     if (run.has_input(input)) {
       lines.facts[input] = parsed(run.input(input));
     }

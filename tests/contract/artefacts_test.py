@@ -40,6 +40,7 @@ class Artefacts(unittest.TestCase):
               "--truth-json", os.path.join(work, "truth.json"))
         run("make", "-C", SOURCE, "run", f"SCAN={scan}", f"WORK={work}", f"BUILD={BUILD}")
         stage("evaluate", "--work", work, "--truth", truth)
+        run("make", "-C", SOURCE, "compare", f"A={work}", f"B={work}", f"BUILD={BUILD}")
 
     @classmethod
     def tearDownClass(cls):
@@ -77,7 +78,8 @@ class Artefacts(unittest.TestCase):
         checked = 0
         pairs = [(path, "wall_lines") for path in self.files("wall_lines.geojson")]
         pairs += [(os.path.join(self.work, "summary.json"), "summary"),
-                  (os.path.join(self.work, "evaluate", "scores.json"), "scores")]
+                  (os.path.join(self.work, "evaluate", "scores.json"), "scores"),
+                  (os.path.join(self.work, "compare", "work", "comparison.json"), "comparison")]
         pairs.append((os.path.join(self.work, "95_find_openings", "openings.geojson"), "openings"))
         scenes = os.path.join(SOURCE, "tests/data/scenes")
         pairs += [(os.path.join(scenes, name), "scene") for name in sorted(os.listdir(scenes)) if name.endswith(".json")]
@@ -93,7 +95,7 @@ class Artefacts(unittest.TestCase):
     def test_no_artefact_names_this_machine(self):
         marks = [self.folder.name.encode(), SOURCE.encode(), os.uname().nodename.encode()]
         marks = [mark for mark in marks if len(mark) > 5]  # a host called "vm" stands in any megabyte by chance
-        endings = (".h5", ".geojson", "model.ply", "model.obj", "summary.json")
+        endings = (".h5", ".geojson", "model.ply", "model.obj", "summary.json", "comparison.json", "comparison.html")
         for ending in endings:
             for path in self.files(ending):
                 with open(path, "rb") as data:

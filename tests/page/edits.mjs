@@ -31,6 +31,22 @@ function outerLine(page) {
   });
 }
 
+/** Shows the slice that has the most points on a line. */
+function showSliceOf(page, key) {
+  return page.evaluate(async (wanted) => {
+    const { plan, edit } = window.roomcut;
+    edit.tool.select(wanted);
+    let best = { count: -1, slice: null };
+    for (const slice of plan.slices) {
+      await plan.choose(slice);
+      const { count } = edit.tool.fit();
+      best = count > best.count ? { count, slice } : best;
+    }
+    await plan.choose(best.slice);
+    return best.count;
+  }, key);
+}
+
 const document_ = (page) => page.evaluate(() => window.roomcut.edit.document.lines.map(({ key, a, b, locked }) => ({ key, a, b, locked })));
 const changes = (page) => page.evaluate(() => window.roomcut.edit.document.changes());
 
@@ -75,6 +91,7 @@ export async function movesWall(page, scan, work, name, metres) {
   let moved = 0;
 
   await step("a wall is dragged by a known distance, with its points in sight", async () => {
+    assert.ok((await showSliceOf(page, line.key)) > 10, "no slice has points on the line");
     await page.mouse.move(...(await windowOf(page, middle)));
     await page.mouse.wheel(0, -900);
     await settled(page);
@@ -134,10 +151,17 @@ export async function editsLines(page, scan, work, name) {
     await page.click("#plan-tools >> text=Fit");
     await page.click("#edit-add");
     const { width, height, x, y } = await page.locator(kPlan).boundingBox();
-    await page.mouse.move(x + 0.35 * width, y + 0.5 * height);
+    // Half a degree off the longest wall: the page puts it right.
+    const angle = 0.009 + (await page.evaluate(() => {
+      const { lines } = window.roomcut.edit.document;
+      const [dx, dy] = lines.map(({ a, b }) => [b[0] - a[0], b[1] - a[1]]).sort((l, m) => Math.hypot(...m) - Math.hypot(...l))[0];
+      return Math.atan2(dy, dx);
+    }));
+    const at = (pixels) => [x + 0.42 * width + pixels * Math.cos(angle), y + 0.5 * height - pixels * Math.sin(angle)];
+    await page.mouse.move(...at(-75));
     await page.mouse.down();
-    await page.mouse.move(x + 0.4 * width, y + 0.5 * height);
-    await page.mouse.move(x + 0.5 * width, y + 0.502 * height);
+    await page.mouse.move(...at(-30));
+    await page.mouse.move(...at(75));
     await screenshot(page, `${name}_add`);
     await page.mouse.up();
     drawn = (await document_(page)).at(-1);

@@ -48,7 +48,7 @@ export async function looksAtModel(page, name) {
     for (const colouring of names) {
       await page.selectOption("#model-colour", colouring);
       kinds.add((await look(page, kModel)).hash);
-      assert.notEqual(await page.textContent("#model-canvas .legend"), "", colouring);
+      assert.notEqual(await page.textContent("#model-legend"), "", colouring);
       if (/ω|Distance/.test(colouring)) {
         await screenshot(page, `${name}_by_${colouring.startsWith("D") ? "distance" : "omega"}`);
       }
@@ -195,7 +195,10 @@ export async function agreesWithTheRun(page, work) {
   await step("the tables hold every room, every stage, and the checks of the mesh", async () => {
     const rooms = await page.textContent("#rooms");
     for (const { area_m2: area } of summary.rooms) {
-      assert.ok(rooms.includes(area.toFixed(2)), String(area));
+      assert.ok(rooms.includes(`${area.toFixed(3)} ± `), String(area));
+    }
+    for (const { opening_id: id, rooms: joined } of summary.openings) {
+      assert.ok(rooms.includes(id) && rooms.includes(joined.join(" – ")), id);
     }
     assert.match(rooms, /self intersections0/);
     assert.match(rooms, /closedyes/);

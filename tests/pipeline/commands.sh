@@ -100,6 +100,94 @@ mk edit-lines && mk drop-edit
 check "a second drop-edit keeps the first" test -s "$work/edits/old/wall_lines.1.geojson" -a -s "$work/edits/old/wall_lines.2.geojson"
 mk run
 
+# layers for QGIS, beside the file that is edited (where they lie: tests/contract/gdal_layers_test.py)
+rm -f "$work"/edits/slice_*
+touch "$work/edits/slice_99.png"
+check "layers" mk layers
+says "… says which" "^$work/edits/slice_0.png\$"
+for ending in png pgw png.aux.xml; do check "… with its $ending" test -s "$work/edits/slice_0.$ending"; done
+check "… and takes away those of former slices" test ! -e "$work/edits/slice_99.png"
+rm -f "$work"/edits/slice_*
+mk edit-lines && mk drop-edit
+check "edit-lines makes them too" test -s "$work/edits/slice_0.png" -a -s "$work/edits/slice_0.pgw"
+
+# plot-STAGE: SVG and PNG of every stage, with words that say what they show
+whole() { # whole LIST FOLDER: the files of the list are all there are, SVGs have words, PNGs are whole and not blank
+  python3 - "$1" "$2" << 'P'
+import os, sys, xml.etree.ElementTree, zlib
+named = open(sys.argv[1]).read().split("\n")[:-1]
+there = [os.path.join(sys.argv[2], name) for name in os.listdir(sys.argv[2])]
+assert sorted(named) == sorted(there), (named, there)
+for path in named:
+    content = open(path, "rb").read()
+    if path.endswith(".svg"):
+        texts = [text for text in xml.etree.ElementTree.fromstring(content).iter() if text.tag.endswith("}text")]
+        assert len(texts) >= 2 and all(text.text for text in texts[:2]), path
+    else:
+        assert content.startswith(b"\x89PNG") and content[-8:-4] == b"IEND", path
+        at, pixels = 8, b""
+        while at < len(content):
+            size = int.from_bytes(content[at : at + 4], "big")
+            pixels += content[at + 8 : at + 8 + size] if content[at + 4 : at + 8] == b"IDAT" else b""
+            at += 12 + size
+        assert len(set(zlib.decompress(pixels))) > 3, path + ": one colour"
+P
+}
+for stage in $ALL; do
+  rm -rf "$work/pictures"
+  check "plot-$stage" mk "plot-$stage"
+  grep '^/' "$output" > "$place/drawn"
+  svgs=$(grep -c '\.svg$' "$place/drawn")
+  if [ "$svgs" -ge 1 ] && [ "$svgs" -eq "$(grep -c '\.png$' "$place/drawn")" ]; then ok "… a PNG for each SVG"; else
+    not_ok "… a PNG for each SVG" "$(cat "$output")"
+  fi
+  check "… all whole, not blank, nothing besides" whole "$place/drawn" "$work/pictures"
+done
+rm "$work/90_final/labels.h5"
+mk plot-final_graphcut
+check "plot-STAGE makes first what is missing" test -s "$work/90_final/labels.h5"
+mk rerun-report
+
+# compare: two runs of one scan, one of them with another dial and a wall moved by 12 cm
+other="$place/an other"
+compare_says() { # compare_says NAME PYTHON: a condition on comparison.json, `d`
+  if python3 -c 'import json, sys; d = json.load(open(sys.argv[1])); sys.exit(not (eval(sys.argv[2])))' "$other/compare/w o r k/comparison.json" "$2"; then
+    ok "$1"
+  else
+    not_ok "$1" "$(cat "$output")"
+  fi
+}
+cp -a "$work" "$other"
+check "compare of a run with its copy" mk compare A="$work" B="$other"
+compare_says "… finds the same scan, parameters and lines" 'd["same_scan"] and not d["parameters"] and not d["lines"]["moved"] and d["lines"]["same"] >= 4'
+compare_says "… and the same model" 'd["distance"]["a_to_b"]["hausdorff_m"] < 1e-9 and abs(d["distance"]["a_m3"] - d["distance"]["common_m3"]) < 1e-9'
+mkdir -p "$other/edits"
+cp "$other/40_accept_lines/wall_lines.geojson" "$other/edits/wall_lines.geojson"
+change "$other/edits/wall_lines.geojson" '
+east = max(d["features"], key=lambda line: min(p[0] for p in line["geometry"]["coordinates"]))
+for point in east["geometry"]["coordinates"]: point[0] += 0.12
+east["properties"]["locked"] = True'
+config_text 'graphcut:\n  mu_m: 0.35\n'
+first_work=$work && work=$other
+mk run
+work=$first_work
+config_text 'graphcut:\n  mu_m: 0.3\n'
+digests "$work" > "$place/before"
+check "compare of two runs" mk compare A="$work" B="$other"
+digests "$work" > "$place/after"
+check "… leaves the first as it was" cmp "$place/before" "$place/after"
+says "… says the dial" '^ +graphcut\.mu_m +0\.3 +0\.35$'
+says "… and the wall" '^ +w[0-9]+ +w[0-9]+ +moved +1[12][0-9]\.[0-9] '
+compare_says "… the wall moved by as much" 'sum(abs(m["offset_m"] - 0.12) < 0.005 for m in d["lines"]["moved"]) == 1 and d["b"]["edited"] and not d["a"]["edited"]'
+compare_says "… and the model with it" 'abs(d["distance"]["b_to_a"]["hausdorff_m"] - 0.12) < 0.01 and d["distance"]["b_m3"] > d["distance"]["a_m3"] + 0.5'
+compare_says "… only B is empty there" 'd["distance"]["a_m3"] - d["distance"]["common_m3"] < 0.1 < d["distance"]["b_m3"] - d["distance"]["common_m3"]'
+compare_says "… and the room is larger" 'len(d["rooms"]["both"]) == 1 and d["rooms"]["both"][0]["area_m2"][1] > d["rooms"]["both"][0]["area_m2"][0] + 0.2'
+check "… with a page" grep -q 'Storey 0, floor at' "$other/compare/w o r k/comparison.html"
+refused "compare without A is refused" mk compare B="$other"
+says "… with a remedy" 'hint: name two work folders'
+refused "compare with a folder that holds no run is refused" mk compare A="$place" B="$other"
+says "… naming it" "error\\[A01\\] $place/10_ingest/cloud.h5"
+
 # verify: every kind of flaw
 check "verify finds all in order" mk verify
 [ "$(grep -c '^ok  ' "$output")" -ge 17 ] && ok "… in every file" || not_ok "… in every file" "$(cat "$output")"
@@ -139,9 +227,11 @@ open(sys.argv[1], "wb").write(content)' "$work/model.ply"
 flaw model.ply N06 '' python3 -c '
 import sys
 content = bytearray(open(sys.argv[1], "rb").read())
-content[content.index(b"end_header\n") + 11 + 7] ^= 0x80  # x of the first vertex: mirrored
+end = content.index(b"end_header\n") + 11
+face = end + 24 * int(content[:end].decode().split("element vertex ")[1].split()[0]) + 1
+content[face : face + 8] = content[face + 4 : face + 8] + content[face : face + 4]  # the first triangle: turned around
 open(sys.argv[1], "wb").write(content)' "$work/model.ply"
-flaw 20_slice/slices.h5 A0 '' cp "$work/50_partition/cells.h5" "$work/20_slice/slices.h5"
+flaw 20_slice/slices.h5 A05 '' cp "$work/50_partition/cells.h5" "$work/20_slice/slices.h5"
 cp "$scan" "$place/scan" && printf ' ' >> "$scan"
 refused "verify finds another scan" mk verify
 says "… and says so" 'error\[A05\] 10_ingest/cloud.h5: was made from other bytes than '

@@ -79,6 +79,20 @@ export function polygonArea(corners) {
   return 0.5 * twice;
 }
 
+/** The centre of gravity of a polygon, counted from its first corner so that products stay small. */
+export function polygonCentre(corners) {
+  const [[x0, y0]] = corners;
+  const [sum, area] = [[0, 0], polygonArea(corners)];
+  for (let i = 1; i + 1 < corners.length; ++i) {
+    const [ux, uy] = [corners[i][0] - x0, corners[i][1] - y0];
+    const [vx, vy] = [corners[i + 1][0] - x0, corners[i + 1][1] - y0];
+    const twice = ux * vy - uy * vx;
+    sum[0] += (twice * (ux + vx)) / 6;
+    sum[1] += (twice * (uy + vy)) / 6;
+  }
+  return [x0 + sum[0] / area, y0 + sum[1] / area];
+}
+
 function insideConvex(corners, x, y) {
   return corners.every(([ax, ay], i) => {
     const [bx, by] = corners[(i + 1) % corners.length];

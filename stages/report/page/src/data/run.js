@@ -8,7 +8,7 @@ import { findStoreys } from "./storeys.js";
 /**
  * @typedef {object} Run
  * @property {object} facts      block `run`: levels, histogram, noise, density, frame, summary
- * @property {object} lines      block `lines`: detected, lines (accepted), refined; GeoJSON
+ * @property {object} lines      block `lines`: detected, lines (accepted), refined, openings; GeoJSON
  * @property {object[]} stages   block `logs`
  * @property {?object} model     block `model`
  * @property {?object} cloud     block `cloud`
@@ -72,6 +72,19 @@ export async function loadSlice(run, index) {
     }
   }
   return block;
+}
+
+/** Doors and other openings of a GeoJSON as {id, a, b, thickness, sill, head, properties}. */
+export function openingsOf(geojson) {
+  return (geojson?.features ?? []).map(({ properties, geometry }) => ({
+    id: properties.opening_id,
+    a: geometry.coordinates[0],
+    b: geometry.coordinates[1],
+    thickness: properties.thickness_m,
+    sill: properties.sill_z_m,
+    head: properties.head_z_m,
+    properties,
+  }));
 }
 
 /** Wall lines of a GeoJSON as {id, a, b, properties}. */

@@ -2,6 +2,8 @@
 // Which storey and which room of summary.json a cell belongs to: the rule of stages/extract (its README, "Storeys"), from the
 // storeys' floors. A run is a stack of empty cells without a gap; it belongs as a whole to one storey.
 
+import { polygonCentre } from "./complex.js";
+
 const kDefaultGap = 1.8; // [m], of extract.storey_gap_m, where the summary does not tell
 
 /** The storey of each cell (-1: solid), from the floors of the summary (local heights, ascending). */
@@ -50,10 +52,40 @@ function roomsOf(complex, storey) {
       }
     }
     const plan = new Set(cells.map((c) => c % complex.faces));
-    const area = [...plan].reduce((sum, f) => sum + complex.areas[f], 0);
-    rooms.push({ storey: storey[start], cells, plan, area });
+    rooms.push({ storey: storey[start], cells, plan, ...placeOf(complex, plan) });
   }
   return { room, rooms };
+}
+
+/** Area and centre of a set of plan faces. */
+function placeOf(complex, plan) {
+  let area = 0;
+  const centre = [0, 0];
+  for (const f of plan) {
+    const [x, y] = polygonCentre(complex.corners(f));
+    area += complex.areas[f];
+    centre[0] += complex.areas[f] * x;
+    centre[1] += complex.areas[f] * y;
+  }
+  return { area, centre: centre.map((value) => value / area) };
+}
+
+/** The number of each room in the summary: the room of the same storey with the nearest centre; -1 for none. */
+function numbersOf(rooms, summary) {
+  const [x0, y0] = summary?.frame?.origin ?? [0, 0];
+  const left = new Map((summary?.rooms ?? []).map((entry, i) => [i, entry]));
+  return rooms.map(({ storey, centre }) => {
+    let best = -1;
+    let least = Infinity;
+    for (const [i, entry] of left) {
+      const distance = Math.hypot(entry.centre_m[0] - x0 - centre[0], entry.centre_m[1] - y0 - centre[1]);
+      if (entry.storey === storey && distance < least) {
+        [best, least] = [i, distance];
+      }
+    }
+    left.delete(best);
+    return best;
+  });
 }
 
 function neighbours(complex, cell) {
@@ -77,7 +109,7 @@ function neighbours(complex, cell) {
 }
 
 /**
- * Storeys and rooms of the cells, numbered as in summary.json (rooms by storey, largest first).
+ * Storeys and rooms of the cells, numbered as in summary.json; no rooms when the two do not agree.
  * @returns {{storey: Int16Array, room: Int32Array, rooms: object[]}}
  */
 export function findStoreys(complex, summary) {
@@ -91,11 +123,13 @@ export function findStoreys(complex, summary) {
   }
   const storey = storeyOfCells(complex, floors, gap);
   const found = roomsOf(complex, storey);
-  const order = found.rooms.map((_, i) => i);
-  order.sort((a, b) => found.rooms[a].storey - found.rooms[b].storey || found.rooms[b].area - found.rooms[a].area);
-  const rank = new Int32Array(order.length);
-  order.forEach((old, i) => {
-    rank[old] = i;
+  const numbers = numbersOf(found.rooms, summary);
+  if (numbers.includes(-1) || numbers.length !== summary?.rooms?.length) {
+    return { storey, room: found.room.fill(-1), rooms: [] };
+  }
+  const rooms = [];
+  numbers.forEach((number, i) => {
+    rooms[number] = found.rooms[i];
   });
-  return { storey, room: found.room.map((r) => (r < 0 ? -1 : rank[r])), rooms: order.map((i) => found.rooms[i]) };
+  return { storey, room: found.room.map((r) => (r < 0 ? -1 : numbers[r])), rooms };
 }

@@ -96,14 +96,18 @@ export class EditPanel {
     if (this.on && !this.busy) {
       this.say(this.summary());
     }
+    this.listChanges();
+    if (line && this.plan.state.selected?.line === line.key) {
+      this.plan.select({ line: line.key }); // its length, its lock
+    }
     this.plan.view.redraw();
   }
 
   summary() {
     const { tool } = this;
     const fit = tool.fit();
-    const changes = this.document.changes();
-    const words = [changes.length === 0 ? "nothing changed" : changes.length <= 3 ? changes.join("; ") : `${changes.length} changes`];
+    const changes = this.document.changes().length;
+    const words = [changes === 0 ? "nothing changed" : `${changes} change${changes > 1 ? "s" : ""}${this.document.isSaved ? ", saved" : ""}`];
     if (tool.adding) {
       words.unshift("drag from one end to the other");
     } else if (fit) {
@@ -111,6 +115,14 @@ export class EditPanel {
       words.unshift(fit.count > 0 ? `${name}: ${fit.count} cells of points within 3 cm, ${number(1e3 * fit.mean, 1)} mm off on average` : `${name}: no points within 3 cm in this slice`);
     }
     return words.join(" · ");
+  }
+
+  /** What differs from the lines that the editing began from, beside the plan. */
+  listChanges() {
+    const changes = this.on ? this.document.changes() : [];
+    byId("edit-changes").replaceChildren(
+      ...(changes.length === 0 ? [] : [make("h3", { text: "Your changes" }), make("ul", {}, ...changes.map((text) => make("li", { text })))]),
+    );
   }
 
   say(text, isProblem = false) {

@@ -157,8 +157,8 @@ export class EditTool {
 
   select(key) {
     this.selected = key;
+    this.onChange(); // first: the plan must know a line that has just been drawn
     this.panel.select(key === null ? null : { line: key });
-    this.onChange();
   }
 
   /** @returns {boolean} whether the key meant something here */

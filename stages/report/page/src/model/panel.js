@@ -18,8 +18,7 @@ export function showModelPanel(run, onPick) {
     return null;
   }
   const scene = new ModelScene(host, run.box);
-  const legend = make("div", { class: "legend" });
-  host.append(legend);
+  const legend = byId("model-legend");
 
   const model = { block: run.model, surface: modelSurface(run.model) };
   const faces = run.complex ? faceSurface(run.complex, run.storeys.storey) : null;
@@ -59,7 +58,7 @@ export function showModelPanel(run, onPick) {
       make("button", { type: "button", text: "Slanted", onclick: () => scene.look(-0.6, -1, 0.9) }),
     ),
   );
-  pickOnClick(scene, (hit) => {
+  onPicks(scene, (hit) => {
     if (hit && run.complex) {
       const face = scene.shown.surface === faces ? faces.faces[faces.part[hit.triangle]] : null;
       const cell = face ? face.cell : cellAt(run.complex, hit.inside);
@@ -139,8 +138,8 @@ function cellAt(complex, { x, y, z }) {
   return face < 0 || layer < 0 ? -1 : complex.cell(face, layer);
 }
 
-/** Calls back for clicks, not for the ends of drags. */
-function pickOnClick(scene, pick) {
+/** Calls back for clicks, not for the ends of drags, and for the middle of the view with the enter key. */
+function onPicks(scene, pick) {
   const canvas = scene.renderer.domElement;
   let down = null;
   canvas.addEventListener("pointerdown", (event) => {
@@ -149,6 +148,11 @@ function pickOnClick(scene, pick) {
   canvas.addEventListener("pointerup", (event) => {
     if (down && Math.hypot(event.clientX - down[0], event.clientY - down[1]) < 4) {
       pick(scene.pick(event.clientX, event.clientY));
+    }
+  });
+  canvas.addEventListener("keydown", (event) => {
+    if (event.key === "Enter") {
+      pick(scene.pickMiddle());
     }
   });
 }

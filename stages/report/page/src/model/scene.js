@@ -10,8 +10,6 @@ import {
   DoubleSide,
   HemisphereLight,
   LinearSRGBColorSpace,
-  LineBasicMaterial,
-  LineSegments,
   Mesh,
   MeshLambertMaterial,
   PerspectiveCamera,
@@ -25,12 +23,15 @@ import {
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { Outlines } from "./outlines.js";
 
 // Colours are given as they are to be seen.
 ColorManagement.enabled = false;
 
 const kUp = new Vector3(0, 0, 1);
 const kInside = 0.005; // [m]
+const kFilled = 0.94; // share of the view that the building fills
+const kKeyZoom = 1.15;
 
 export class ModelScene {
   /** @param {HTMLElement} host @param {number[]} box low and high corner, local metres */
@@ -45,7 +46,7 @@ export class ModelScene {
     this.renderer.clippingPlanes = [this.cut];
     host.append(this.renderer.domElement);
     this.renderer.domElement.tabIndex = 0;
-    this.renderer.domElement.setAttribute("aria-label", "The model in 3D. Drag to turn, wheel to zoom, arrow keys to move.");
+    this.renderer.domElement.setAttribute("aria-label", "The model in 3D. Drag or shift and arrow keys turn, wheel or plus and minus zoom, arrow keys move, enter says why.");
 
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(35, 1, 0.1, 10000);
@@ -58,14 +59,18 @@ export class ModelScene {
       new BufferGeometry(),
       new MeshLambertMaterial({ vertexColors: true, side: BackSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }),
     );
-    this.outlines = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ color: 0x333a40, transparent: true, opacity: 0.55 }));
+    this.outlines = new Outlines();
     this.cloud = new Points(new BufferGeometry(), new PointsMaterial({ size: 1.6, sizeAttenuation: false, vertexColors: true }));
     this.cloud.visible = false;
-    this.scene.add(this.surface, this.outlines, this.cloud);
+    this.scene.add(this.surface, this.outlines.object, this.cloud);
 
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
     this.controls.listenToKeyEvents(this.renderer.domElement);
     this.controls.addEventListener("change", () => this.redraw());
+    this.controls.addEventListener("start", () => {
+      this.fitted = false;
+    });
+    this.renderer.domElement.addEventListener("keydown", (event) => this.key(event));
     new ResizeObserver(() => this.resize()).observe(host);
     this.look(-0.6, -1, 0.9);
   }
@@ -78,10 +83,52 @@ export class ModelScene {
     this.camera.position.copy(new Vector3(x, y, z).normalize().multiplyScalar(distance).add(centre));
     this.camera.near = distance / 500;
     this.camera.far = 10 * distance;
-    this.camera.updateProjectionMatrix();
     this.controls.target.copy(centre);
     this.controls.update();
+    this.fitted = true;
+    this.fit();
+  }
+
+  /** Moves back, to and fro and aside until the box of the building just fills the view. */
+  fit() {
+    this.camera.updateProjectionMatrix();
+    const { position, projectionMatrix: projection } = this.camera;
+    const away = position.clone().sub(this.controls.target);
+    for (let i = 0; i < 4; ++i) {
+      this.camera.updateMatrixWorld();
+      const [low, high] = this.shownBox();
+      const distance = away.length();
+      const aside = new Vector3(((low.x + high.x) / 2 / projection.elements[0]) * distance, ((low.y + high.y) / 2 / projection.elements[5]) * distance, 0);
+      this.controls.target.add(aside.applyQuaternion(this.camera.quaternion));
+      away.multiplyScalar(Math.max(high.x - low.x, high.y - low.y) / (2 * kFilled));
+      position.copy(this.controls.target).add(away);
+    }
+    this.controls.update();
     this.redraw();
+  }
+
+  /** The corners of the building's box as the camera sees them, each axis -1 … 1 within the view. */
+  shownBox() {
+    const low = new Vector2(Infinity, Infinity);
+    const high = new Vector2(-Infinity, -Infinity);
+    for (let corner = 0; corner < 8; ++corner) {
+      const from = [corner & 1, corner & 2, corner & 4].map((bit) => (bit ? this.high : this.low));
+      const seen = new Vector3(from[0].x, from[1].y, from[2].z).project(this.camera);
+      low.min(seen);
+      high.max(seen);
+    }
+    return [low, high];
+  }
+
+  key(event) {
+    this.fitted = false;
+    const factor = { "+": 1 / kKeyZoom, "=": 1 / kKeyZoom, "-": kKeyZoom }[event.key];
+    if (factor && !event.ctrlKey && !event.metaKey) {
+      event.preventDefault();
+      const away = this.camera.position.clone().sub(this.controls.target).multiplyScalar(factor);
+      this.camera.position.copy(this.controls.target).add(away);
+      this.controls.update();
+    }
   }
 
   /**
@@ -106,13 +153,7 @@ export class ModelScene {
     });
     this.shown = { surface, kept };
     replaceGeometry(this.surface, positions, colours).computeVertexNormals();
-    const lines = [];
-    for (let s = 0; s < surface.lineStorey.length; ++s) {
-      if (storey < 0 || surface.lineStorey[s] === storey) {
-        lines.push(...surface.lines.subarray(6 * s, 6 * s + 6));
-      }
-    }
-    replaceGeometry(this.outlines, Float32Array.from(lines), null);
+    this.outlines.show(surface, storey);
     this.redraw();
   }
 
@@ -134,7 +175,14 @@ export class ModelScene {
   bothSides(on) {
     this.surface.material.side = on ? DoubleSide : BackSide;
     this.surface.material.needsUpdate = true;
+    this.outlines.onlyInside.value = !on;
     this.redraw();
+  }
+
+  /** What is in the middle of the view, as pick(). */
+  pickMiddle() {
+    const box = this.renderer.domElement.getBoundingClientRect();
+    return this.pick(box.left + box.width / 2, box.top + box.height / 2);
   }
 
   /** What is under a point of the window: {triangle of the shown surface, point inside the room behind it}, or null. */
@@ -154,6 +202,9 @@ export class ModelScene {
       this.renderer.setPixelRatio(window.devicePixelRatio);
       this.renderer.setSize(width, height, false);
       this.camera.aspect = width / height;
+      if (this.fitted) {
+        this.fit(); // nobody has turned or moved it yet
+      }
       this.camera.updateProjectionMatrix();
       this.renderer.render(this.scene, this.camera); // a new size clears the canvas
     }
@@ -174,8 +225,6 @@ function replaceGeometry(object, positions, colours) {
   object.geometry.dispose();
   object.geometry = new BufferGeometry();
   object.geometry.setAttribute("position", new BufferAttribute(positions, 3));
-  if (colours) {
-    object.geometry.setAttribute("color", new BufferAttribute(colours, 3, true));
-  }
+  object.geometry.setAttribute("color", new BufferAttribute(colours, 3, true));
   return object.geometry;
 }

@@ -11,11 +11,12 @@ export const kWall = 2;
  * @property {Float32Array} lines      6 per segment of its outlines
  * @property {Int16Array} storey       per triangle
  * @property {Int16Array} lineStorey   per segment
+ * @property {Float32Array} lineNormals 3 per segment: normal of the face that it outlines
  * @property {Uint8Array} kind         per triangle
  * @property {Int32Array} part         per triangle: region of the model, or index into `faces`
  */
 
-/** The model itself (block `model`): outlines where two regions meet. */
+/** The model itself (block `model`): outlines where two regions meet, once for each of the two. */
 export function modelSurface(block) {
   const { vertices, triangles, region } = block;
   const count = triangles.length / 3;
@@ -27,25 +28,41 @@ export function modelSurface(block) {
       positions.set(vertices.subarray(3 * v, 3 * v + 3), 9 * t + 3 * c);
       const next = triangles[3 * t + ((c + 1) % 3)];
       const key = v < next ? `${v} ${next}` : `${next} ${v}`;
-      const side = sides.get(key) ?? { v, next, parts: new Set(), storey: block.storey[t] };
-      side.parts.add(region[t]);
+      const side = sides.get(key) ?? { v, next, parts: new Map(), storey: block.storey[t] };
+      side.parts.set(region[t], t);
       sides.set(key, side);
     }
   }
-  const outlines = [...sides.values()].filter((side) => side.parts.size > 1);
+  const outlines = [...sides.values()].filter(({ parts }) => parts.size > 1).flatMap((side) => [...side.parts.values()].map((triangle) => ({ ...side, triangle })));
   const lines = new Float32Array(6 * outlines.length);
-  outlines.forEach(({ v, next }, i) => {
+  const lineNormals = new Float32Array(3 * outlines.length);
+  outlines.forEach(({ v, next, triangle }, i) => {
     lines.set(vertices.subarray(3 * v, 3 * v + 3), 6 * i);
     lines.set(vertices.subarray(3 * next, 3 * next + 3), 6 * i + 3);
+    const corner = (c) => positions.subarray(9 * triangle + 3 * c, 9 * triangle + 3 * c + 3);
+    lineNormals.set(normalOf([0, 1, 2].map(corner)), 3 * i);
   });
   return {
     positions,
     lines,
     storey: block.storey,
     lineStorey: Int16Array.from(outlines, (side) => side.storey),
+    lineNormals,
     kind: block.kind,
     part: region,
   };
+}
+
+/** The normal of a plane polygon (Newell), some corners in one row or not; its length means nothing. */
+function normalOf(corners) {
+  const normal = [0, 0, 0];
+  corners.forEach((a, i) => {
+    const b = corners[(i + 1) % corners.length];
+    normal[0] += (a[1] - b[1]) * (a[2] + b[2]);
+    normal[1] += (a[2] - b[2]) * (a[0] + b[0]);
+    normal[2] += (a[0] - b[0]) * (a[1] + b[1]);
+  });
+  return normal;
 }
 
 /**
@@ -94,12 +111,13 @@ export function faceSurface(complex, storeyOfCell) {
 class Builder {
   constructor(storeyOfCell) {
     this.storeyOfCell = storeyOfCell;
-    Object.assign(this, { positions: [], lines: [], storey: [], lineStorey: [], kind: [], part: [], faces: [] });
+    Object.assign(this, { positions: [], lines: [], storey: [], lineStorey: [], lineNormals: [], kind: [], part: [], faces: [] });
   }
 
   /** A convex face, counter-clockwise seen from its normal's tip. */
   add(corners, face) {
     const storey = this.storeyOfCell[face.cell];
+    const normal = normalOf(corners);
     for (let i = 1; i + 1 < corners.length; ++i) {
       this.positions.push(...corners[0], ...corners[i], ...corners[i + 1]);
       this.storey.push(storey);
@@ -109,6 +127,7 @@ class Builder {
     corners.forEach((corner, i) => {
       this.lines.push(...corner, ...corners[(i + 1) % corners.length]);
       this.lineStorey.push(storey);
+      this.lineNormals.push(...normal);
     });
     this.faces.push(face);
   }
@@ -119,6 +138,7 @@ class Builder {
       lines: Float32Array.from(this.lines),
       storey: Int16Array.from(this.storey),
       lineStorey: Int16Array.from(this.lineStorey),
+      lineNormals: Float32Array.from(this.lineNormals),
       kind: Uint8Array.from(this.kind),
       part: Int32Array.from(this.part),
       faces: this.faces,

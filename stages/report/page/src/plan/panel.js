@@ -2,14 +2,14 @@
 // The part "Plan": one slice from above, with its tools, and why what was clicked came out so.
 
 import { byId, make } from "../dom.js";
-import { loadSlice, slicesOf, wallLines } from "../data/run.js";
+import { loadSlice, openingsOf, slicesOf, wallLines } from "../data/run.js";
 import { drawLegend } from "../model/colourings.js";
 import { selection } from "../model/panel.js";
 import { cellFills } from "./fills.js";
-import { nearestLine, nearestWallFace } from "./pick.js";
+import { distanceToSegment, nearestLine, nearestWallFace } from "./pick.js";
 import { rasterOf } from "./rasters.js";
 import { PlanView } from "./view.js";
-import { whyCell, whyLine, whyWallFace } from "./why.js";
+import { whyCell, whyLine, whyOpening, whyWallFace } from "./why.js";
 
 const kPickPixels = 6;
 
@@ -29,14 +29,14 @@ export class PlanPanel {
       evidence: "occupancy",
       raster: null,
       fill: this.fills[Math.min(1, this.fills.length - 1)],
-      show: { lines: true, refined: false, points: false },
+      show: { lines: true, refined: false, points: false, openings: true, rooms: true },
       lines: wallLines(run.lines.lines ?? run.lines.detected),
       refined: wallLines(run.lines.refined),
+      openings: openingsOf(run.lines.openings),
       selected: null,
     };
     this.view = new PlanView(byId("plan-canvas"), run, this.state);
-    this.legend = make("div", { class: "legend" });
-    byId("plan-canvas").append(this.legend);
+    this.legend = byId("plan-legend");
     this.buildTools();
     this.listen();
     this.select(null);
@@ -90,6 +90,8 @@ export class PlanPanel {
       check("wall lines", "lines"),
       check("refined lines", "refined"),
       check("points", "points"),
+      check("openings", "openings"),
+      check("rooms", "rooms"),
       make("button", { type: "button", text: "Fit", onclick: () => this.view.viewport.fit(this.view.viewport.box) }),
     );
   }
@@ -128,7 +130,10 @@ export class PlanPanel {
     if (this.state.evidence === "walls") {
       swatches.push(["#0072b2", "piece of a wall"], ["#e69f00", "clutter"]);
     } else if (this.state.evidence === "occupancy") {
-      swatches.push(["#1e1e1e", "covered over all of the height"], ["#e1e1e1", "over little of it"]);
+      swatches.push(["#1e1e1e", "points over all of the height"], ["#e1e1e1", "over little of it"]);
+    }
+    if (this.state.show.openings && this.state.openings.length > 0) {
+      swatches.push(["#009e73", "opening"]);
     }
     drawLegend(this.legend, { ...this.state.fill.legend, swatches });
   }
@@ -136,7 +141,7 @@ export class PlanPanel {
   listen() {
     const { viewport } = this.view;
     const { canvas } = viewport;
-    canvas.setAttribute("aria-label", "Plan. Arrow keys move, plus and minus zoom, page up and down change the slice.");
+    canvas.setAttribute("aria-label", "Plan. Arrow keys move, plus and minus zoom, page up and down change the slice, enter says why of what lies in the middle.");
     let last = null;
     let moved = 0;
     canvas.addEventListener("pointerdown", (event) => {
@@ -184,6 +189,7 @@ export class PlanPanel {
       "-": () => viewport.zoom(0.8),
       PageUp: () => this.step(1),
       PageDown: () => this.step(-1),
+      Enter: () => this.pick(viewport.centre),
     };
     if (keys[event.key] && !event.ctrlKey && !event.metaKey) {
       event.preventDefault();
@@ -195,6 +201,11 @@ export class PlanPanel {
     const limit = kPickPixels / this.view.viewport.scale;
     const { complex } = this.run;
     const { slice, show, lines } = this.state;
+    const opening = show.openings ? this.openingAt(point) : null;
+    if (opening) {
+      this.select({ opening: opening.id });
+      return;
+    }
     const line = show.lines ? nearestLine(lines, point, limit) : null;
     if (line) {
       this.select({ line: line.id });
@@ -213,7 +224,13 @@ export class PlanPanel {
     this.select(face < 0 ? null : { cell: complex.cell(face, slice.layer) });
   }
 
-  /** Shows why: `what` is {line}, {edge, layer}, {cell} or null. */
+  openingAt(point) {
+    const { slice, openings } = this.state;
+    const inside = openings.filter(({ a, b, thickness, sill, head }) => sill < slice.high && head > slice.low && distanceToSegment(point, a, b) <= thickness / 2);
+    return inside[0] ?? null;
+  }
+
+  /** Shows why: `what` is {line}, {edge, layer}, {cell}, {opening} or null. */
   select(what) {
     this.state.selected = what;
     this.view.redraw();
@@ -226,6 +243,10 @@ export class PlanPanel {
       const line = this.state.lines.find(({ id }) => id === what.line);
       const known = this.run.lines.refined ? (this.state.refined.find(({ id }) => id === what.line) ?? null) : undefined;
       return whyLine(line, known);
+    }
+    if (what?.opening !== undefined) {
+      const joined = (this.run.facts.summary?.openings ?? []).find((entry) => entry.opening_id === what.opening);
+      return whyOpening(this.state.openings.find(({ id }) => id === what.opening), joined);
     }
     if (what?.edge !== undefined) {
       return whyWallFace(complex, what.edge, what.layer);
@@ -241,5 +262,5 @@ export class PlanPanel {
 export function roomOf(run, cell) {
   const room = run.storeys?.room[cell] ?? -1;
   const rooms = run.facts.summary?.rooms ?? [];
-  return room >= 0 && rooms.length === run.storeys.rooms.length ? rooms[room] : null;
+  return rooms[room] ?? null;
 }

@@ -135,10 +135,25 @@ export function whyLine(line, refined) {
   if (p.note) {
     parts.push(make("p", { text: p.note }));
   }
-  if (refined) {
+  if (refined?.properties.locked) {
+    parts.push(make("p", { class: "quiet", text: "Locked: refinement left it where it is." }));
+  } else if (refined) {
     parts.push(make("p", { class: "quiet", text: `After refinement: offset ± ${number(1e3 * refined.properties.sigma_offset_m, 2)} mm, rms ${number(1e3 * refined.properties.rms_m, 1)} mm.` }));
   } else if (refined === null) {
     parts.push(make("p", { class: "quiet", text: "It carries no wall of the first cut, so refinement dropped it." }));
   }
   return parts;
+}
+
+/** @returns {Element[]} what is known of an opening; `joined` is its entry of the summary, or undefined */
+export function whyOpening({ id, a, b, thickness, sill, head, properties }, joined) {
+  const width = Math.hypot(b[0] - a[0], b[1] - a[1]);
+  const proof = (name, key) => [name, properties[key].points, `${number(100 * properties[key].spread, 0)} %`, `± ${number(1e3 * properties[key].sigma_m, 1)} mm`];
+  return [
+    make("h3", { text: `Opening ${id}` }),
+    make("p", { text: `${number(width)} m wide, ${number(head - sill)} m high, through ${number(thickness, 3)} m of wall between ${properties.walls.join(" and ")}.` }),
+    joined ? make("p", { text: `It joins room ${joined.rooms[0]} and room ${joined.rooms[1]}.` }) : null,
+    table(["proven by", "points", "spread", "place"], [proof("one jamb", "jamb_a"), proof("other jamb", "jamb_b"), proof("head", "head")]),
+    make("p", { class: "quiet", text: "Spread: the share of the jamb's height, or the head's width, that has points on it." }),
+  ].filter((part) => part !== null);
 }

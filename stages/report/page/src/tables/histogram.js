@@ -53,7 +53,7 @@ function picture(levels, { z0, bin_m: bin }, bins) {
     drawing.append(svg("line", { x1: kLeft + kBars - 40, x2: kLeft + kBars, y1: y(level.z), y2: y(level.z), stroke: "#d55e00", "stroke-width": 2 }));
     const at = Math.min(y(level.z) + 4, last - 13); // labels of close peaks do not overlap
     last = at;
-    drawing.append(svg("text", { x: kLeft + kBars + 8, y: at, fill: "#b34700" }, `${number(level.z, 3)} m  ${level.cap ? "cap" : level.step ? "step" : `${number(level.area_m2, 0)} m²`}`));
+    drawing.append(svg("text", { x: kLeft + kBars + 8, y: at, fill: "#b34700" }, `${number(level.z, 3)} m: ${level.cap ? "cap" : level.step ? "step" : `${number(level.area_m2, 0)} m²`}`));
   }
   drawing.append(svg("text", { x: kLeft, y: kTop + kHeight + 20 }, `0`), svg("text", { x: kLeft + kBars - 40, y: kTop + kHeight + 20 }, `${number(most, 0)} m² per ${number(1e3 * bin, 0)} mm`));
   for (let z = Math.ceil(z0); z <= top; z += top - z0 > 30 ? 5 : 1) {

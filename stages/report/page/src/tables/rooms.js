@@ -2,7 +2,7 @@
 // Storeys, rooms, totals and the checks of the mesh, from summary.json.
 
 import { roomUncertainties } from "../data/uncertainty.js";
-import { byId, make, number, short } from "../dom.js";
+import { byId, make, number } from "../dom.js";
 
 const kInterval = 1.96; // standard deviations of a 95 % interval
 
@@ -17,71 +17,59 @@ const kNames = {
   floor_z_m: "Floor [m]",
   ceiling_z_m: "Ceiling [m]",
   unobserved_m3: "Unobserved [m³]",
+  opening_id: "Opening",
+  width_m: "Width [m]",
+  sill_z_m: "Sill [m]",
+  thickness_m: "Thickness of the wall [m]",
 };
 const kOrder = Object.keys(kNames);
+const kUnits = [["_m2", " [m²]"], ["_m3", " [m³]"], ["_m", " [m]"]];
 
-/** Columns of a list of objects: the known ones first, in their order, then whatever else is a number or text. */
-function columnsOf(list) {
-  const keys = [...new Set(list.flatMap((item) => Object.keys(item)))].filter((key) => typeof list[0][key] !== "object");
+/** "wall_m2" as "wall [m²]". */
+function nameOf(key) {
+  const unit = kUnits.find(([ending]) => key.endsWith(ending));
+  return kNames[key] ?? (unit ? key.slice(0, -unit[0].length) + unit[1] : key).replaceAll("_", " ");
+}
+
+/** A table of objects: a column for each number or text in them, in the order of kNames; `texts[key](i)` overrules a value. */
+function listTable(list, texts = {}) {
+  const keys = [...new Set([...list.flatMap((item) => Object.keys(item)), ...Object.keys(texts)])].filter((key) => texts[key] || typeof list[0][key] !== "object");
   const rank = (key) => (kOrder.includes(key) ? kOrder.indexOf(key) : kOrder.length);
-  return keys.filter((key) => !sigmaOf(key, keys)).sort((a, b) => rank(a) - rank(b));
-}
-
-/** The column that a column of standard deviations belongs to: "sigma_area_m2" and "area_sigma_m2" to "area_m2". */
-function sigmaOf(key, keys) {
-  return key.includes("sigma") ? keys.find((other) => !other.includes("sigma") && key.replace(/_?sigma_?/, "_").replace(/^_/, "") === other) : undefined;
-}
-
-function valueText(item, key, keys) {
-  const value = item[key];
-  if (typeof value !== "number") {
-    return String(value ?? "–");
-  }
-  const text = Number.isInteger(value) ? String(value) : number(value, 2);
-  const sigma = keys.find((other) => sigmaOf(other, keys) === key);
-  return sigma !== undefined && Number.isFinite(item[sigma]) ? `${number(value, 3)} ± ${number(item[sigma], 3)}` : text;
-}
-
-function listTable(list, extra = []) {
-  const all = [...new Set(list.flatMap((item) => Object.keys(item)))];
-  const columns = columnsOf(list);
+  keys.sort((a, b) => rank(a) - rank(b));
   return make(
     "table",
     {},
-    make(
-      "tr",
-      {},
-      ...columns.map((key) => make("th", { class: "number", text: kNames[key] ?? key.replaceAll("_", " ") })),
-      ...extra.map(({ name }) => make("th", { class: "number", text: name })),
-    ),
-    ...list.map((item, i) =>
-      make(
-        "tr",
-        {},
-        ...columns.map((key) => make("td", { class: "number", text: valueText(item, key, all) })),
-        ...extra.map(({ text }) => make("td", { class: "number", text: text(i) })),
-      ),
-    ),
+    make("tr", {}, ...keys.map((key) => make("th", { class: "number", text: nameOf(key) }))),
+    ...list.map((item, i) => make("tr", {}, ...keys.map((key) => make("td", { class: "number", text: texts[key]?.(i) ?? valueText(item[key]) })))),
   );
+}
+
+function valueText(value) {
+  return typeof value !== "number" ? String(value ?? "–") : Number.isInteger(value) ? String(value) : number(value, 2);
 }
 
 function pairs(object) {
   return make(
     "table",
     {},
-    ...Object.entries(object).map(([key, value]) => make("tr", {}, make("td", { text: key.replaceAll("_", " ") }), make("td", { class: "number", text: typeof value === "boolean" ? (value ? "yes" : "NO") : short(value) }))),
+    ...Object.entries(object).map(([key, value]) => make("tr", {}, make("td", { text: nameOf(key) }), make("td", { class: "number", text: typeof value === "boolean" ? (value ? "yes" : "NO") : Number.isInteger(value) ? String(value) : number(value) }))),
   );
 }
 
-/** Columns that summary.json does not hold: the perimeter, and how well area, perimeter and volume are known. */
-function uncertaintyColumns(known) {
-  const interval = (sigma, { unknown }, digits) => `± ${number(kInterval * sigma, digits)}${unknown ? " ?" : ""}`;
-  return [
-    { name: "± area [m²]", text: (i) => interval(known[i].area, known[i], 3) },
-    { name: "Perimeter [m]", text: (i) => number(known[i].perimeter, 2) },
-    { name: "± perimeter [m]", text: (i) => interval(known[i].perimeterSigma, known[i], 3) },
-    { name: "± volume [m³]", text: (i) => interval(known[i].volume, known[i], 3) },
-  ];
+/** Area, perimeter and volume of each room with how well they are known. */
+function uncertainTexts(rooms, known) {
+  const interval = (sigma) => (sigma > 0 && sigma < 0.001 ? "0.001" : number(sigma, 3)); // rounded up: never better than it is
+  const text = (value, sigma, { unknown }) => `${number(value, 3)} ± ${interval(kInterval * sigma)}${unknown ? " ?" : ""}`;
+  return {
+    area_m2: (i) => text(rooms[i].area_m2, known[i].area, known[i]),
+    perimeter_m: (i) => text(known[i].perimeter, known[i].perimeterSigma, known[i]),
+    volume_m3: (i) => text(rooms[i].volume_m3, known[i].volume, known[i]),
+  };
+}
+
+/** Doors and passages between rooms. */
+function openingTexts(openings) {
+  return { rooms: (i) => openings[i].rooms.join(" – ") };
 }
 
 export function showRooms(run) {
@@ -91,8 +79,9 @@ export function showRooms(run) {
     host.append(make("p", { class: "quiet", text: "There is no model yet: make run goes on." }));
     return;
   }
-  const known = run.complex && run.storeys.rooms.length === summary.rooms.length ? roomUncertainties(run.complex, run.storeys.rooms, run.lines.refined) : null;
-  host.append(make("h3", { text: "Storeys" }), listTable(summary.storeys), make("h3", { text: "Rooms" }), listTable(summary.rooms, known ? uncertaintyColumns(known) : []));
+  const known = run.storeys?.rooms.length > 0 ? roomUncertainties(run.complex, run.storeys.rooms, run.lines.refined) : null;
+  host.append(make("h3", { text: "Storeys" }), listTable(summary.storeys));
+  host.append(make("h3", { text: "Rooms" }), listTable(summary.rooms, known ? uncertainTexts(summary.rooms, known) : {}));
   if (known) {
     host.append(
       make("p", {
@@ -100,6 +89,9 @@ export function showRooms(run) {
         text: "± is a 95 % interval from the standard deviations of the refined wall lines alone, taken as independent; heights of levels are taken as exact. “?”: a side of the room lies on a line whose deviation is not known (locked, drawn by hand, or the edge of the building).",
       }),
     );
+  }
+  if (summary.openings?.length > 0) {
+    host.append(make("h3", { text: "Openings" }), listTable(summary.openings, openingTexts(summary.openings)));
   }
   for (const [title, key] of [["Totals", "totals"], ["Checks of the mesh", "mesh"], ["Counts", "counts"], ["Energy of the labelling", "energy"]]) {
     if (summary[key]) {

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <iostream>
+
+#include "common/artefact/atomic_file.h"
+#include "common/cli/run_stage.h"
+#include "stages/compare/comparison_json.h"
+#include "stages/compare/comparison_words.h"
+#include "stages/compare/read_run.h"
+
+namespace {
+
+using namespace roomcut;
+
+StageInfo info() {
+  StageInfo stage;
+  stage.name = "compare";
+  stage.summary = "Compares two runs: parameters, lines, rooms, models";
+  stage.inputs = {{"distance", "distance.json", "scores of evaluate: model B, truth A", true},
+                  {"picture", "distance.png", "picture of evaluate", true}};
+  stage.outputs = {{"comparison", "comparison.json", "all that was found"},
+                   {"page", "comparison.html", "the same as a page"}};
+  stage.options = {{"a", "", "one work folder", {}}, {"b", "", "the other one", {}}};
+  return stage;
+}
+
+void body(StageRun& run) {
+  const RunFacts a = read_run(run.option("a")), b = read_run(run.option("b"));
+  const Comparison comparison = compare_runs(a, b);
+  std::optional<ModelDistance> distance;
+  if (run.has_input("distance")) {
+    distance = read_distance(run.input("distance"));
+  }
+  const std::string picture = run.has_input("picture") ? read_text_file(run.input("picture")) : "";
+  write_json_artefact(run.output("comparison"), artefacts::kComparison, run.provenance(), a.frame,
+                      comparison_json(a, b, comparison, distance));
+  write_text_file(run.output("page"), comparison_html(a, b, comparison, distance, picture));
+  if (!run.quiet()) {
+    std::cout << comparison_text(a, b, comparison, distance);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_stage(argc, argv, info(), {}, body);
+}

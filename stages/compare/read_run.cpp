@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/compare/read_run.h"
+
+#include <array>
+
+#include "common/artefact/atomic_file.h"
+#include "common/artefact/h5.h"
+#include "common/artefact/json.h"
+#include "common/cells/cells_io.h"
+#include "common/errors/codes.h"
+#include "common/openings/openings_io.h"
+#include "common/wall_lines/wall_lines_io.h"
+
+namespace roomcut {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kCloud = "10_ingest/cloud.h5";
+constexpr const char* kAccepted = "40_accept_lines/wall_lines.geojson";
+constexpr const char* kRefined = "80_refine_lines/wall_lines.geojson";
+constexpr const char* kOpenings = "95_find_openings/openings.geojson";
+
+/// The stages with parameters and an artefact that tells which; the second pass has those of the first.
+constexpr std::array<std::pair<const char*, const char*>, 11> kStages{
+    {{"ingest", kCloud},
+     {"slice", "20_slice/slices.h5"},
+     {"detect_lines", "30_detect_lines/wall_lines.geojson"},
+     {"accept_lines", kAccepted},
+     {"partition", "50_partition/cells.h5"},
+     {"weigh_faces", "55_weigh_faces/weights.h5"},
+     {"raycast", "60_raycast/data_terms.h5"},
+     {"graphcut", "70_graphcut/labels.h5"},
+     {"refine_lines", kRefined},
+     {"find_openings", kOpenings},
+     {"extract", "summary.json"}}};
+
+bool there(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+std::string text_of(const Json& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+/// What `auto` came to in this run, from the stage's log.
+Json chosen_values(const fs::path& log) {
+  Json values = Json::object();
+  const Json content = there(log) ? Json::parse(read_text_file(log), nullptr, false) : Json();
+  for (const Json& choice : content.is_object() ? content.value("chosen", Json::array()) : Json::array()) {
+    values[choice.value("parameter", "")] = choice.value("value", Json());
+  }
+  return values;
+}
+
+void read_parameters(const fs::path& folder, RunFacts& run) {
+  for (const auto& [stage, file] : kStages) {
+    if (!there(folder / file)) {
+      continue;
+    }
+    const Provenance provenance = read_provenance(folder / file);
+    const Json chosen = chosen_values(folder / "logs" / (std::string(stage) + ".json"));
+    const Json parameters = Json::parse(provenance.params_json, nullptr, false);
+    for (const auto& [name, value] : parameters.items()) {
+      std::string text = text_of(value);
+      if (chosen.contains(name)) {
+        text += " (" + text_of(chosen[name]) + ")";
+      }
+      run.parameters.emplace_back(std::string(stage) + "." + name, text);
+    }
+    run.parameters.emplace_back(std::string(stage) + " (revision)",
+                                std::to_string(provenance.stage_revision));
+    for (const InputRecord& input : provenance.inputs) {
+      run.scan_sha256 = input.name == "scan" ? input.payload_sha256 : run.scan_sha256;
+      run.edited = run.edited || input.name == "edit";
+    }
+  }
+}
+
+SpaceFacts space_of(const Json& entry) {
+  SpaceFacts space;
+  space.storey = entry.value("storey", 0);
+  space.number = entry.value("room", space.storey);
+  if (entry.contains("centre_m")) {
+    space.centre = {entry["centre_m"].at(0).get<double>(), entry["centre_m"].at(1).get<double>()};
+  }
+  space.floor_z = entry.value("floor_z_m", 0.0);
+  space.ceiling_z = entry.value("ceiling_z_m", 0.0);
+  space.area_m2 = entry.value("area_m2", 0.0);
+  space.volume_m3 = entry.value("volume_m3", 0.0);
+  space.height_m = entry.value("height_m", 0.0);
+  space.unobserved_m3 = entry.value("unobserved_m3", 0.0);
+  return space;
+}
+
+void read_summary(const fs::path& path, RunFacts& run) {
+  const Json summary = read_json_artefact(path, artefacts::kSummary);
+  for (const Json& storey : summary.at("storeys")) {
+    run.storeys.push_back(space_of(storey));
+  }
+  for (const Json& room : summary.at("rooms")) {
+    run.rooms.push_back(space_of(room));
+  }
+  const auto add = [&](const char* name, const char* pointer) {
+    run.totals.emplace_back(name, summary.value(Json::json_pointer(pointer), 0.0));
+  };
+  run.totals.emplace_back("storeys", static_cast<double>(run.storeys.size()));
+  run.totals.emplace_back("rooms", static_cast<double>(run.rooms.size()));
+  run.totals.emplace_back("openings", static_cast<double>(summary.value("openings", Json::array()).size()));
+  add("area_m2", "/totals/area_m2");
+  add("volume_m3", "/totals/volume_m3");
+  add("wall_m2", "/totals/wall_m2");
+  add("unobserved_empty_m3", "/totals/unobserved_empty_m3");
+  add("unobserved_solid_m3", "/totals/unobserved_solid_m3");
+  add("energy_m3", "/energy/total_m3");
+  add("energy_data_m3", "/energy/data_m3");
+  add("energy_boundary_m3", "/energy/boundary_m3");
+  add("lines", "/counts/lines");
+  add("levels", "/counts/levels");
+  add("cells", "/counts/cells");
+  add("triangles", "/counts/triangles");
+}
+
+void read_plan(const fs::path& folder, RunFacts& run) {
+  for (const auto& [cells_file, labels_file] : {std::pair{"90_final/cells.h5", "90_final/labels.h5"},
+                                                {"50_partition/cells.h5", "70_graphcut/labels.h5"}}) {
+    if (there(folder / cells_file) && there(folder / labels_file)) {
+      CellsFile cells = read_cells(folder / cells_file);
+      Labels labels = read_labels(folder / labels_file, cells);
+      run.plan = RunPlan{std::move(cells.complex), std::move(labels)};
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+RunFacts read_run(const fs::path& folder) {
+  if (!there(folder / kCloud)) {
+    throw StageError(errors::kArtefactMissing, (folder / kCloud).string(), "there is no run in this folder",
+                     "name two work folders: make compare A=work/x B=work/y");
+  }
+  RunFacts run;
+  const fs::path whole = fs::weakly_canonical(folder);
+  run.name = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+  read_parameters(folder, run);
+  for (const char* file : {kRefined, kAccepted}) {
+    if (there(folder / file)) {
+      WallLines lines = read_wall_lines(folder / file).content;
+      run.frame = lines.frame;
+      run.lines = std::move(lines.lines);
+      run.lines_file = file;
+      break;
+    }
+  }
+  read_plan(folder, run);
+  if (there(folder / kOpenings)) {
+    run.openings = read_openings(folder / kOpenings).content.openings;
+  }
+  if (there(folder / "summary.json")) {
+    read_summary(folder / "summary.json", run);
+  }
+  return run;
+}
+
+}  // namespace roomcut

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/report/occupancy_raster.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace roomcut {
+namespace {
+
+/// Cells of 0.5 m; one cell is occupied, from (1, -0.5) to (1.5, 0), over all of the height.
+Slices one_cell() {
+  Slices slices;
+  slices.tau_m = 0.5;
+  slices.bbox_min = {-1, -2, 0};
+  slices.bbox_max = {3, 1, 3};
+  slices.levels.resize(2);
+  slices.wall_slices.resize(1);
+  OccupancyGrid& grid = slices.wall_slices[0];
+  grid.ix = {2};
+  grid.iy = {-1};
+  grid.coverage = {1};
+  return slices;
+}
+
+TEST(OccupancyRaster, the_world_file_puts_each_pixel_where_its_cell_is) {
+  const Slices slices = one_cell();
+  const GridRaster raster = occupancy_raster(slices, 0);
+  double a = 0, d = 0, b = 0, e = 0, x = 0, y = 0;
+  std::istringstream(world_file(raster, slices.tau_m)) >> a >> d >> b >> e >> x >> y;
+  EXPECT_EQ(d, 0);
+  EXPECT_EQ(b, 0);
+  int dark = 0;
+  for (int row = 0; row < raster.image.height(); ++row) {
+    for (int column = 0; column < raster.image.width(); ++column) {
+      if (!(raster.image.get(column, row) == Colour{255, 255, 255})) {
+        ++dark;
+        EXPECT_DOUBLE_EQ(x + a * column, 1.25);
+        EXPECT_DOUBLE_EQ(y + e * row, -0.25);
+      }
+    }
+  }
+  EXPECT_EQ(dark, 1);
+}
+
+TEST(OccupancyRaster, its_box_holds_the_scan_and_fits_the_pixels) {
+  const GridRaster raster = occupancy_raster(one_cell(), 0);
+  EXPECT_LT(raster.low.x(), -1);
+  EXPECT_LT(raster.low.y(), -2);
+  EXPECT_GT(raster.high.x(), 3);
+  EXPECT_GT(raster.high.y(), 1);
+  EXPECT_DOUBLE_EQ(raster.high.x() - raster.low.x(), 0.5 * raster.image.width());
+  EXPECT_DOUBLE_EQ(raster.high.y() - raster.low.y(), 0.5 * raster.image.height());
+}
+
+TEST(OccupancyRaster, gdal_gets_the_coordinate_system_and_the_corner) {
+  const Slices slices = one_cell();
+  const GridRaster raster = occupancy_raster(slices, 0);
+  const std::string text = aux_file(raster, slices.tau_m, "LOCAL_CS[\"a\"]");
+  EXPECT_NE(text.find("<SRS>LOCAL_CS[\"a\"]</SRS>"), std::string::npos);
+  EXPECT_NE(text.find("<GeoTransform>-2.000000000, 0.5, 0, 2.500000000, 0, -0.5</GeoTransform>"),
+            std::string::npos)
+      << text;
+}
+
+}  // namespace
+}  // namespace roomcut
