@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/mesh/facet_surface.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 
 #include "common/mesh/facet_regions.h"
@@ -86,6 +88,22 @@ void FacetSurface::add(const std::vector<std::int32_t>& facet_corners,
   plane.push_back(facet_plane);
   kind.push_back(static_cast<std::uint8_t>(facet_kind));
   storey.push_back(facet_storey);
+}
+
+double volume(const FacetSurface& surface) {
+  double six_volumes = 0;
+  const auto vertex = [&](std::int32_t corner) -> const Vec3& {
+    return surface.vertices[static_cast<std::size_t>(surface.corners[static_cast<std::size_t>(corner)])];
+  };
+  for (std::size_t f = 0; f < surface.facets(); ++f) {
+    const Vec3 a = vertex(surface.offset[f]) - surface.vertices.front();  // cancels less than the origin does
+    for (std::int32_t i = surface.offset[f] + 1; i + 1 < surface.offset[f + 1]; ++i) {
+      const Vec3 b = vertex(i) - surface.vertices.front();
+      const Vec3 c = vertex(i + 1) - surface.vertices.front();
+      six_volumes += a.dot(b.cross(c));
+    }
+  }
+  return six_volumes / 6;
 }
 
 MergedSurface merge_facets(const FacetSurface& surface, double straight_m) {

@@ -27,6 +27,9 @@ struct FacetSurface {
            std::int64_t facet_plane, SurfaceKind facet_kind, std::int16_t facet_storey);
 };
 
+/// Signed volume that the facets enclose [m^3], each as a fan around its first corner.
+double volume(const FacetSurface& surface);
+
 /// A maximal connected surface of one plane, kind and storey.
 struct SurfaceRegion {
   SurfaceKind kind = SurfaceKind::kOther;

@@ -32,7 +32,7 @@ double empty_log_odds(const CellEvidence& e) {
   const double surface = e.front_m2 + e.back_m2 + 0.5 + 0.03 * e.total_m2;
   // A thin cell between backs is a wall. A wide one that shows backs lies between rooms: it is more likely a
   // room that was not entered than anything else.
-  const double back = (-2.5 * e.thin() + 1.0 * (1 - e.thin())) * e.back_m2 / surface;
+  const double back = (-2.5 * e.thin() + 1.5 * (1 - e.thin())) * e.back_m2 / surface;
   return 1 + 0.5 * e.front_m2 / surface + back + 2 * e.around.front - 1.75 * e.around.near_back -
          3.5 * e.in_slab() - 3 * e.open() - 2 * e.outdoors() - e.sky + 3 * e.carved;
 }
