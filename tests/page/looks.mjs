@@ -176,6 +176,51 @@ export async function looksAtPlan(page, name) {
   });
 }
 
+/** The printer gets every part, also those that were never on the screen: call it before the plan is opened. */
+export async function printsDecently(page) {
+  await step("it prints: every part on a page of its own, the model and the plan drawn", async () => {
+    assert.equal(await page.getAttribute("#tab-model", "aria-selected"), "true");
+    const pdf = (await page.pdf({ format: "A4" })).toString("latin1");
+    const pages = (pdf.match(/\/Type\s*\/Page\b(?!s)/g) ?? []).length;
+    assert.ok(pages >= 5, `${pages} pages`);
+    assert.ok((await look(page, kPlan)).ink > 0.3, "the plan that was never shown");
+    await page.emulateMedia({ media: "print" });
+    const shown = await page.$$eval("main > section, nav, .tools", (parts) => parts.map((part) => [part.id || part.tagName, part.getClientRects().length > 0]));
+    await page.emulateMedia({ media: "screen" });
+    assert.deepEqual(shown.filter(([id]) => id.startsWith("part-")).map(([, is]) => is), [true, true, true, true, true]);
+    assert.ok(shown.every(([id, is]) => id.startsWith("part-") || !is), JSON.stringify(shown));
+  });
+}
+
+/** Everything that the pointer does has its key. */
+export async function worksWithTheKeyboard(page) {
+  await step("tabs, the model and the plan work with the keyboard alone", async () => {
+    await page.focus("#tab-model");
+    await page.keyboard.press("ArrowRight");
+    assert.equal(await page.getAttribute("#tab-plan", "aria-selected"), "true");
+    assert.ok(await page.isVisible("#plan-canvas"));
+    await page.keyboard.press("ArrowLeft");
+    await page.focus(kModel);
+    const before = await look(page, kModel);
+    await page.keyboard.press("+");
+    const nearer = await look(page, kModel);
+    assert.notEqual(nearer.hash, before.hash);
+    await page.keyboard.press("-");
+    await page.keyboard.press("Enter");
+    assert.match(await page.textContent("#model-why"), /Cell \d+: empty/);
+    await page.click("#model-tools >> text=Slanted");
+    await page.click("#tab-plan");
+    await page.focus(kPlan);
+    await page.click("text=Fit");
+    await page.focus(kPlan);
+    await page.keyboard.press("Enter");
+    assert.match(await page.textContent("#plan-why"), /Cell \d+:|Wall (face|line)/);
+    await page.keyboard.press("Tab");
+    assert.notEqual(await page.evaluate(() => document.activeElement.tagName), "CANVAS", "the canvas keeps the focus");
+    await page.click("#tab-model");
+  });
+}
+
 /** What the page works out for itself must agree with what the stages wrote. */
 export async function agreesWithTheRun(page, work) {
   const summary = json(join(work, "summary.json"));
@@ -221,8 +266,9 @@ export async function looksAtTables(page, name) {
   }
 }
 
-export function nothingWrong(page) {
+/** No complaint of the browser, and no request to anywhere but `server`, if there is one. */
+export function nothingWrong(page, server = "file:") {
   assert.deepEqual(page.complaints, []);
-  const outside = page.asked.filter((url) => !/^(file|blob|data):/.test(url));
+  const outside = page.asked.filter((url) => !/^(file|blob|data):/.test(url) && !url.startsWith(`${server}/`));
   assert.deepEqual(outside, [], "the page asked the net");
 }

@@ -4,7 +4,7 @@ import { existsSync } from "node:fs";
 import { join } from "node:path";
 import { make, need, openBrowser, openReport, skip, source, temporaryFolder } from "./browser.mjs";
 import { editsLines, movesWall } from "./edits.mjs";
-import { agreesWithTheRun, looksAtModel, looksAtPlan, looksAtTables, nothingWrong } from "./looks.mjs";
+import { agreesWithTheRun, looksAtModel, looksAtPlan, looksAtTables, nothingWrong, printsDecently, worksWithTheKeyboard } from "./looks.mjs";
 
 need();
 const scan = join(source, "../shared/data/scans/indoor_office_2storey.ply");
@@ -15,6 +15,8 @@ const work = join(temporaryFolder(), "work");
 make("run", scan, work);
 const { browser, page } = await openBrowser();
 await openReport(page, work);
+await printsDecently(page);
+await worksWithTheKeyboard(page);
 await looksAtModel(page, "office");
 await looksAtPlan(page, "office");
 await looksAtTables(page, "office");

@@ -179,7 +179,16 @@ class View(unittest.TestCase):
 
     def test_status_names_the_work_folder(self):
         self.assertEqual(json.loads(self.ask("GET", "/api/status")[2]),
-                         {"work": "w o r k", "running": False, "stage": None, "error": None})
+                         {"work": "w o r k", "running": False, "stage": None, "error": None, "edit": False})
+        self.assertEqual(self.ask("PUT", "/api/edit", self.moved_edit())[0], 200)
+        self.assertTrue(json.loads(self.ask("GET", "/api/status")[2])["edit"])
+
+    def test_files_are_sent_as_they_are_though_browsers_take_them_packed(self):
+        for path in ("/", "/model.obj"):
+            status, headers, body = self.ask("GET", path, headers={"Accept-Encoding": "gzip, deflate, br, zstd"})
+            self.assertEqual(status, 200)
+            self.assertNotIn("Content-Encoding", headers)
+            self.assertEqual(body, read(os.path.join(self.work, "report.html" if path == "/" else path[1:])))
 
     # What is refused.
 

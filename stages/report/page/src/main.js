@@ -4,6 +4,7 @@ import { loadRun } from "./data/run.js";
 import { byId, make } from "./dom.js";
 import { worstMargin } from "./data/energy.js";
 import { EditPanel } from "./edit/panel.js";
+import { findPlace } from "./edit/place.js";
 import { findServer } from "./edit/server.js";
 import { showModelPanel } from "./model/panel.js";
 import { PlanPanel, roomOf } from "./plan/panel.js";
@@ -66,6 +67,11 @@ async function start() {
   const scene = showModelPanel(run, (cell, face) => showFace(run, plan, cell, face));
   showFace(run, plan, null, null);
   const edit = plan.view ? await startEditing(run, plan) : null;
+  const said = edit ? await findPlace(plan) : null;
+  if (said) {
+    edit.show(true);
+    edit.say(said);
+  }
   // For tests and for the browser's console.
   window.roomcut = { run, plan, scene, edit, worstMargin: () => worstMargin(run.complex) };
   document.documentElement.dataset.ready = "yes";

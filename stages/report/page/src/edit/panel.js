@@ -4,6 +4,7 @@
 import { byId, make, number } from "../dom.js";
 import { LineDocument } from "./document.js";
 import { paintEditing } from "./overlay.js";
+import { keepPlace } from "./place.js";
 import { EditTool } from "./tool.js";
 
 const kPoll_ms = 400;
@@ -174,6 +175,7 @@ export class EditPanel {
       return;
     }
     this.busy = true;
+    this.begun = Date.now();
     this.progress.hidden = false;
     for (;;) {
       await new Promise((resolve) => setTimeout(resolve, kPoll_ms));
@@ -192,6 +194,7 @@ export class EditPanel {
     this.progress.hidden = true;
     if (state.exit === 0) {
       this.leaving = true;
+      keepPlace(this.plan, `The run is done (${((Date.now() - this.begun) / 1000).toFixed(1)} s): this is its result.`);
       window.location.reload();
     } else {
       this.say(`make run ended with ${state.exit}: ${(state.log ?? []).slice(-3).join(" · ")}`, true);

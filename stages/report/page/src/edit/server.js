@@ -24,6 +24,9 @@ class Server {
 
   /** The edit that is in force, as GeoJSON; null when there is none. */
   async edit() {
+    if (!this.status.edit) {
+      return null;
+    }
     const answer = await fetch("api/edit");
     return answer.ok ? answer.json() : null;
   }

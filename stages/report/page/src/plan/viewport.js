@@ -2,6 +2,7 @@
 // A canvas with metres: pan, zoom, and the way from the window to the plan and back. y is up in the plan, down on the canvas.
 
 const kZoomPerPixel = 0.0015;
+const kPrinted = [1200, 800]; // pixels of a plan that was never on the screen
 
 export class Viewport {
   /** @param {HTMLElement} host @param {(context: CanvasRenderingContext2D) => void} paint draws, in pixels of the window */
@@ -13,15 +14,21 @@ export class Viewport {
     this.scale = 50; // pixels per metre
     this.centre = [0, 0];
     this.host = host;
-    new ResizeObserver(() => this.resize()).observe(host);
+    new ResizeObserver(() => {
+      // A part that is not shown has no size; its last picture stays, for the printer.
+      if (host.clientWidth > 0) {
+        this.resize();
+      }
+    }).observe(host);
+    window.addEventListener("beforeprint", () => this.drawForPrint());
     this.canvas.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
   }
 
   get width() {
-    return this.host.clientWidth;
+    return this.printed?.[0] ?? this.host.clientWidth;
   }
   get height() {
-    return this.host.clientHeight;
+    return this.printed?.[1] ?? this.host.clientHeight;
   }
 
   /** Pixels of the canvas of a point of the plan. */
@@ -74,6 +81,15 @@ export class Viewport {
       this.fit(this.box);
     }
     this.drawNow(); // a new size clears the canvas
+  }
+
+  drawForPrint() {
+    if (!this.fitted) {
+      this.printed = kPrinted;
+      this.resize();
+      this.printed = null;
+      this.fitted = false;
+    }
   }
 
   redraw() {
