@@ -7,7 +7,6 @@
 #include "common/mesh/mesh_io.h"
 #include "common/slices/slices_io.h"
 #include "common/wall_lines/wall_lines_io.h"
-#include "stages/report/thinned_points.h"
 
 namespace roomcut {
 
@@ -74,18 +73,20 @@ std::vector<StageFile> report_inputs() {
           {"summary", "summary.json", "its summary", true}};
 }
 
-std::vector<Picture> draw_pictures(const StageRun& run, const ReportParams& params, const std::string& only) {
+std::vector<Picture> draw_pictures(const StageRun& run, const ReportParams& params, const std::string& only,
+                                   const std::vector<ThinPoint>& points) {
   const auto wanted = [&](const char* stage) { return only == "all" || only == stage; };
   std::vector<Picture> pictures;
   if (wanted("extract") && run.has_input("model")) {
     draw_models(run, params.picture_px, pictures);
   }
   if (wanted("ingest") && run.has_input("cloud")) {
-    std::vector<Vec3> points;
-    for (const ThinPoint& point : thinned_points(run, static_cast<std::uint64_t>(params.cloud_points))) {
-      points.push_back(point.at);
+    std::vector<Vec3> places;
+    places.reserve(points.size());
+    for (const ThinPoint& point : points) {
+      places.push_back(point.at);
     }
-    pictures.push_back(draw_cloud(points, params.picture_px));
+    pictures.push_back(draw_cloud(places, params.picture_px));
   }
   if ((wanted("slice") || wanted("detect_lines")) && run.has_input("slices")) {
     draw_slices(run, wanted("slice"), wanted("detect_lines"), pictures);
