@@ -20,9 +20,9 @@ double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
 
 LineGrid::LineGrid(const CellComplex& complex, double reach, double azimuth) : grid_(complex, kBin) {
   for (const CellComplex::Line& l : complex.lines) {
-    std::vector<bool> carries(complex.layers(), l.layers.empty());
+    std::vector<std::uint8_t> carries(complex.layers(), l.layers.empty() ? 1 : 0);
     for (const std::int32_t layer : l.layers) {
-      carries[static_cast<std::size_t>(layer)] = true;
+      carries[static_cast<std::size_t>(layer)] = 1;
     }
     std::bitset<kAzimuthSteps> faces;
     for (std::size_t step = 0; step < faces.size(); ++step) {

@@ -15,8 +15,8 @@ namespace roomcut {
 struct PlanLine {
   Vec2 normal, direction;
   double d, theta;
-  std::vector<bool> carries;         // per layer: whether the line may carry a wall there
-  std::bitset<kAzimuthSteps> faces;  // per azimuth of a point: whether its wall may lie on the line
+  std::vector<std::uint8_t> carries;  // per layer: whether the line may carry a wall there
+  std::bitset<kAzimuthSteps> faces;   // per azimuth of a point: whether its wall may lie on the line
   double distance(const Vec2& p) const { return normal.dot(p) - d; }
   double along(const Vec2& p) const { return direction.dot(p); }
 };

@@ -127,7 +127,7 @@ void PointSorter::add(const Vec3& point, SurfaceClass surface, std::uint8_t azim
   const std::size_t layer =
       std::min(near.dz < 0 && near.level > 0 ? near.level - 1 : near.level, complex_.layers() - 1);
   for (const std::int32_t index : lines_.near(p)) {
-    if (line(index).carries[layer]) {
+    if (line(index).carries[layer] != 0) {
       candidates_.push_back({index, line(index).distance(p)});
     }
   }
