@@ -161,6 +161,22 @@ record_params() {
   fi
   rm -rf params/.new
   mkdir params/.new
+  take_known_params || ask_params
+  for stage in $stages; do
+    if [ -f "params/$stage.json" ] && cmp -s "params/.new/$stage.json" "params/$stage.json"; then rm -f "params/.new/$stage.json"; fi
+  done
+  rmdir params/.new 2> /dev/null || { mv -f params/.new/*.json params/ && rmdir params/.new; }
+  mv -f params/.asked.new params/.asked
+}
+
+# The answers that the same programs gave to the same pipeline.yaml in another work folder. From inside the folder that holds them:
+# when another run replaces it meanwhile, a file is missing, never of other programs.
+take_known_params() {
+  work=$PWD
+  (cd "$BUILD/parameters" && cmp -s .asked "$work/params/.asked.new" && cp ./*.json "$work/params/.new/") 2> /dev/null
+}
+
+ask_params() {
   asked=
   for stage in $stages; do
     "$BIN/$stage" --dump-params ${CONFIG:+--config "$CONFIG"} > "params/.new/$stage.json" 2> "params/.new/$stage.errors" 9>&- &
@@ -174,12 +190,12 @@ record_params() {
     rm -rf params/.new params/.asked.new
     exit "$failed"
   fi
-  for stage in $stages; do
-    if [ -f "params/$stage.json" ] && cmp -s "params/.new/$stage.json" "params/$stage.json"; then rm -f "params/.new/$stage.json"; fi
-  done
   rm -f params/.new/*.errors
-  rmdir params/.new 2> /dev/null || { mv -f params/.new/*.json params/ && rmdir params/.new; }
-  mv -f params/.asked.new params/.asked
+  # For the next work folder; where the programs lie may not be writable.
+  {
+    cp -R params/.new "$BUILD/parameters.$$" && cp params/.asked.new "$BUILD/parameters.$$/.asked" &&
+      rm -rf "$BUILD/parameters" && mv -T "$BUILD/parameters.$$" "$BUILD/parameters"
+  } 2> /dev/null || rm -rf "$BUILD/parameters.$$"
 }
 
 refresh() {
@@ -190,8 +206,10 @@ refresh() {
 }
 
 rules() {
-  # Pages of 2 MB where the system has them: the points' buffers cost half of their time in page faults otherwise.
-  GLIBC_TUNABLES=${GLIBC_TUNABLES:-glibc.malloc.hugetlb=1} \
+  # Memory that is fresh costs more than most of what is done with it. So: pages of 2 MB where the system has them, one heap for all
+  # threads, which is kept and used again, instead of every large array being mapped and unmapped by itself.
+  heap=glibc.malloc.hugetlb=1:glibc.malloc.arena_max=1:glibc.malloc.mmap_threshold=1073741824:glibc.malloc.trim_threshold=4294967296
+  GLIBC_TUNABLES=${GLIBC_TUNABLES:-$heap} \
   ROOMCUT_BIN=$BIN ROOMCUT_SCAN=$SCAN ROOMCUT_UP=$UP ROOMCUT_UNIT=$UNIT ROOMCUT_THREADS=$JOBS ROOMCUT_VERBOSITY=${QUIET:+-q} \
     "${MAKE:-make}" -f "$root/stages/pipeline.mk" "$@"
 }

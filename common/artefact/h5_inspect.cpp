@@ -12,6 +12,7 @@
 #include "common/artefact/artefact_check.h"
 #include "common/artefact/h5_detail.h"
 #include "common/artefact/json.h"
+#include "common/artefact/known_artefacts.h"
 #include "common/errors/codes.h"
 
 namespace roomcut {
@@ -125,6 +126,9 @@ InputRecord stated(const std::filesystem::path& path) {
 }  // namespace
 
 InputRecord inspect_artefact(const std::filesystem::path& path) {
+  if (const std::optional<InputRecord> known = known_artefact(path)) {
+    return *known;
+  }
   InputRecord record = stated(path);
   if (record.artefact.empty() || record.payload_sha256.empty()) {
     record = {};

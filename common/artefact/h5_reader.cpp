@@ -5,6 +5,7 @@
 
 #include "common/artefact/artefact_check.h"
 #include "common/artefact/h5_detail.h"
+#include "common/artefact/known_artefacts.h"
 #include "common/errors/codes.h"
 
 namespace roomcut {
@@ -17,6 +18,10 @@ struct H5Reader::State {
   Frame frame;
   Provenance provenance;
   std::string payload;
+  std::string opened;  ///< path of `dataset`
+  Handle dataset;      ///< the one asked for last: first its shape is asked for, then its values
+
+  hid_t open(const std::string& dataset_path);
 };
 
 namespace {
@@ -44,14 +49,6 @@ Handle open_artefact(const std::filesystem::path& path) {
                      kRemedy);
   }
   return file;
-}
-
-Handle open_dataset(const std::filesystem::path& file_path, hid_t file, const std::string& path) {
-  Handle dataset(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose);
-  if (!dataset.valid()) {
-    throw_damaged(file_path, path, "the dataset is missing");
-  }
-  return dataset;
 }
 
 h5::Shape shape_of(hid_t dataset) {
@@ -128,6 +125,19 @@ Provenance read_provenance(const std::filesystem::path& path, hid_t file) {
 
 }  // namespace
 
+hid_t H5Reader::State::open(const std::string& dataset_path) {
+  const std::string name = h5::absolute_path(dataset_path);
+  if (opened != name) {
+    opened.clear();
+    dataset = Handle(H5Dopen2(file.get(), name.c_str(), H5P_DEFAULT), H5Dclose);
+    if (!dataset.valid()) {
+      throw_damaged(path, dataset_path, "the dataset is missing");
+    }
+    opened = name;
+  }
+  return dataset.get();
+}
+
 H5Reader::H5Reader(const std::filesystem::path& path, ArtefactType expected)
     : state_(std::make_unique<State>()) {
   state_->path = path;
@@ -148,6 +158,7 @@ H5Reader::H5Reader(const std::filesystem::path& path, ArtefactType expected)
   }
   state_->provenance = read_provenance(path, file);
   state_->payload = AttributeReader(path, file, "/provenance").text("payload_sha256");
+  remember_artefact(path, {"", artefact, version, state_->payload, ""});
 }
 
 H5Reader::~H5Reader() = default;
@@ -183,11 +194,8 @@ bool H5Reader::exists(const std::string& path) const {
 }
 
 h5::Shape H5Reader::checked_shape(const std::string& path, const h5::Shape& expected) const {
-  if (!exists(path)) {
-    damaged(path, "the dataset is missing");
-  }
-  const Handle dataset = open_dataset(state_->path, state_->file.get(), h5::absolute_path(path));
-  h5::Shape actual = shape_of(dataset.get());
+  const hid_t dataset = state_->open(path);
+  h5::Shape actual = shape_of(dataset);
   bool fits = !actual.empty() && (expected.empty() || expected.size() == actual.size());
   for (std::size_t i = 0; fits && i < expected.size(); ++i) {
     fits = expected[i] == 0 || expected[i] == actual[i];
@@ -195,7 +203,7 @@ h5::Shape H5Reader::checked_shape(const std::string& path, const h5::Shape& expe
   if (!fits) {
     damaged(path, "the dataset has an unexpected shape");
   }
-  const Handle type(H5Dget_type(dataset.get()), H5Tclose);
+  const Handle type(H5Dget_type(dataset), H5Tclose);
   if (h5::type_name(type.get()).empty()) {
     damaged(path, "the dataset does not hold numbers");
   }
@@ -207,13 +215,13 @@ h5::Shape H5Reader::checked_shape(const std::string& path, const h5::Shape& expe
     }
     bytes *= n;
   }
-  if (bytes > 0 && H5Dget_storage_size(dataset.get()) == 0) {
+  if (bytes > 0 && H5Dget_storage_size(dataset) == 0) {
     damaged(path, "the dataset has no data");
   }
-  if (bytes > 0 && H5Dget_offset(dataset.get()) != HADDR_UNDEF) {
+  if (bytes > 0 && H5Dget_offset(dataset) != HADDR_UNDEF) {
     hsize_t end = 0;
     H5Fget_filesize(state_->file.get(), &end);
-    const std::uint64_t begin = H5Dget_offset(dataset.get());
+    const std::uint64_t begin = H5Dget_offset(dataset);
     if (begin > end || bytes > end - begin) {
       damaged(path, "the file ends before the dataset does");
     }
@@ -222,8 +230,8 @@ h5::Shape H5Reader::checked_shape(const std::string& path, const h5::Shape& expe
 }
 
 std::uint64_t H5Reader::contiguous_offset(const std::string& path) const {
-  const Handle dataset = open_dataset(state_->path, state_->file.get(), h5::absolute_path(path));
-  const haddr_t offset = H5Dget_offset(dataset.get());
+  const hid_t dataset = state_->open(path);
+  const haddr_t offset = H5Dget_offset(dataset);
   if (offset == HADDR_UNDEF) {
     damaged(path, "the dataset is not contiguous, or empty");
   }
@@ -235,12 +243,12 @@ void H5Reader::read_raw(const std::string& path, void* out, hid_t memory_type, s
   if (count == 0) {
     return;
   }
-  const Handle dataset = open_dataset(state_->path, state_->file.get(), h5::absolute_path(path));
-  const h5::Shape shape = shape_of(dataset.get());
+  const hid_t dataset = state_->open(path);
+  const h5::Shape shape = shape_of(dataset);
   if (shape.empty() || first > shape[0] || count > shape[0] - first) {
     damaged(path, "the dataset has fewer rows than expected");
   }
-  const Handle type(H5Dget_type(dataset.get()), H5Tclose);
+  const Handle type(H5Dget_type(dataset), H5Tclose);
   if (H5Tget_class(type.get()) != H5Tget_class(memory_type)) {
     damaged(path, "the dataset holds another type of number");
   }
@@ -248,11 +256,11 @@ void H5Reader::read_raw(const std::string& path, void* out, hid_t memory_type, s
   std::vector<hsize_t> extent(shape.begin(), shape.end());
   start[0] = first;
   extent[0] = count;
-  const Handle file_space(H5Dget_space(dataset.get()), H5Sclose);
+  const Handle file_space(H5Dget_space(dataset), H5Sclose);
   const Handle memory_space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
                             H5Sclose);
   H5Sselect_hyperslab(file_space.get(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr);
-  if (H5Dread(dataset.get(), memory_type, memory_space.get(), file_space.get(), H5P_DEFAULT, out) < 0) {
+  if (H5Dread(dataset, memory_type, memory_space.get(), file_space.get(), H5P_DEFAULT, out) < 0) {
     damaged(path, "the dataset cannot be read: " + h5::last_error());
   }
 }

@@ -4,6 +4,7 @@
 
 #include "common/artefact/artefact_check.h"
 #include "common/artefact/h5_detail.h"
+#include "common/artefact/known_artefacts.h"
 #include "common/errors/codes.h"
 
 namespace roomcut {
@@ -28,7 +29,10 @@ struct H5Writer::State {
   std::map<std::string, Stream> streams;
   h5::PayloadDigest digest;
 
-  State(const std::filesystem::path& path, const Provenance& from) : atomic(path), provenance(from) {}
+  ArtefactType type;
+
+  State(const std::filesystem::path& path, ArtefactType of_type, const Provenance& from)
+      : atomic(path), provenance(from), type(of_type) {}
 
   [[noreturn]] void failed(const std::string& object) const {
     throw StageError(errors::kCannotWrite, atomic.final_path().string(),
@@ -69,7 +73,7 @@ bool make_parents(hid_t file, const std::string& path) {
 
 H5Writer::H5Writer(const std::filesystem::path& path, ArtefactType type, const Provenance& provenance,
                    const Frame& frame)
-    : state_(std::make_unique<State>(path, provenance)) {
+    : state_(std::make_unique<State>(path, type, provenance)) {
   h5::prepare_library();
   const Handle creation = untimed(H5P_FILE_CREATE);
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -243,6 +247,8 @@ bool H5Writer::commit() {
   state_->file.reset();
   const bool same = stated_payload(state_->atomic.final_path()) == payload;
   state_->atomic.commit(same);
+  remember_artefact(state_->atomic.final_path(),
+                    {"", state_->type.name, version_text(state_->type), payload, ""});
   return !same;
 }
 

@@ -2,7 +2,10 @@
 #include "common/artefact/sha256.h"
 
 #include <fcntl.h>
-#include <openssl/evp.h>
+// The functions below OpenSSL's EVP layer: that layer looks for providers and their configuration when it is
+// first used, which takes longer than all the digests of a small stage.
+#define OPENSSL_SUPPRESS_DEPRECATED
+#include <openssl/sha.h>
 #include <unistd.h>
 
 #include <array>
@@ -16,15 +19,11 @@
 namespace roomcut {
 
 struct Sha256::State {
-  EVP_MD_CTX* context = EVP_MD_CTX_new();
-  State() = default;
-  ~State() { EVP_MD_CTX_free(context); }
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
+  SHA256_CTX context;
 };
 
 Sha256::Sha256() : state_(std::make_unique<State>()) {
-  if (EVP_DigestInit_ex(state_->context, EVP_sha256(), nullptr) != 1) {
+  if (SHA256_Init(&state_->context) != 1) {
     throw std::runtime_error("OpenSSL offers no SHA-256");
   }
 }
@@ -33,23 +32,22 @@ Sha256::Sha256(Sha256&&) noexcept = default;
 Sha256& Sha256::operator=(Sha256&&) noexcept = default;
 
 void Sha256::update(const void* data, std::size_t bytes) {
-  if (EVP_DigestUpdate(state_->context, data, bytes) != 1) {
+  if (SHA256_Update(&state_->context, data, bytes) != 1) {
     throw std::runtime_error("SHA-256 failed");
   }
 }
 
 std::string Sha256::hex() {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned int length = 0;
-  if (EVP_DigestFinal_ex(state_->context, digest.data(), &length) != 1) {
+  std::array<unsigned char, SHA256_DIGEST_LENGTH> digest{};
+  if (SHA256_Final(digest.data(), &state_->context) != 1) {
     throw std::runtime_error("SHA-256 failed");
   }
   static constexpr std::string_view kDigits = "0123456789abcdef";
   std::string text;
-  text.reserve(2 * static_cast<std::size_t>(length));
-  for (unsigned int i = 0; i < length; ++i) {
-    text += kDigits[digest[i] >> 4];
-    text += kDigits[digest[i] & 15U];
+  text.reserve(2 * digest.size());
+  for (const unsigned char byte : digest) {
+    text += kDigits[byte >> 4];
+    text += kDigits[byte & 15U];
   }
   return text;
 }

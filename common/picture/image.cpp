@@ -3,6 +3,8 @@
 
 #include <png.h>
 
+#include <algorithm>
+#include <cstring>
 #include <stdexcept>
 #include <string_view>
 
@@ -11,18 +13,27 @@
 namespace roomcut {
 
 Image::Image(int width, int height, Colour background)
-    : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * height, background) {}
+    : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * height) {
+  if (background.r == background.g &&
+      background.g == background.b) {  // white: a fill of bytes is ten times as fast
+    std::memset(static_cast<void*>(pixels_.data()), background.r, pixels_.size() * sizeof(Colour));
+  } else {
+    std::fill(pixels_.begin(), pixels_.end(), background);
+  }
+}
 
 Image halved(const Image& image) {
   Image half(image.width() / 2, image.height() / 2);
+  const auto mean = [](unsigned p, unsigned q, unsigned r, unsigned s) {
+    return static_cast<std::uint8_t>((p + q + r + s + 2) / 4);
+  };
   for (int y = 0; y < half.height(); ++y) {
+    const Colour* const upper = image.row(2 * y);
+    const Colour* const lower = image.row(2 * y + 1);
+    Colour* const out = half.row(y);
     for (int x = 0; x < half.width(); ++x) {
-      const Colour a = image.get(2 * x, 2 * y), b = image.get(2 * x + 1, 2 * y);
-      const Colour c = image.get(2 * x, 2 * y + 1), d = image.get(2 * x + 1, 2 * y + 1);
-      const auto mean = [](int p, int q, int r, int s) {
-        return static_cast<std::uint8_t>((p + q + r + s + 2) / 4);
-      };
-      half.set(x, y, {mean(a.r, b.r, c.r, d.r), mean(a.g, b.g, c.g, d.g), mean(a.b, b.b, c.b, d.b)});
+      const Colour a = upper[2 * x], b = upper[2 * x + 1], c = lower[2 * x], d = lower[2 * x + 1];
+      out[x] = {mean(a.r, b.r, c.r, d.r), mean(a.g, b.g, c.g, d.g), mean(a.b, b.b, c.b, d.b)};
     }
   }
   return half;

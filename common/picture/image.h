@@ -24,6 +24,8 @@ class Image {
     }
   }
   Colour get(int x, int y) const { return pixels_[static_cast<std::size_t>(y) * width_ + x]; }
+  Colour* row(int y) { return pixels_.data() + static_cast<std::size_t>(y) * width_; }
+  const Colour* row(int y) const { return pixels_.data() + static_cast<std::size_t>(y) * width_; }
   const std::vector<Colour>& pixels() const { return pixels_; }
 
  private:

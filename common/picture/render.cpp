@@ -70,7 +70,16 @@ class DepthBuffer {
     float& depth = depth_[static_cast<std::size_t>(y) * image_.width() + x];
     if (static_cast<float>(z) > depth) {
       depth = static_cast<float>(z);
-      image_.set(x, y, colour);
+      image_.row(y)[x] = colour;
+    }
+  }
+
+  /// Facing the eye, from the corner (x, y) on; what reaches beyond the picture is left out.
+  void square(int x, int y, int size, double z, Colour colour) {
+    const int x0 = std::max(x, 0);
+    const int x1 = std::min(x + size, image_.width()) - 1;
+    for (int row = std::max(y, 0); row < std::min(y + size, image_.height()); ++row) {
+      fill_row(x0, x1, row, z, 0, colour);
     }
   }
 
@@ -85,15 +94,41 @@ class DepthBuffer {
     const int x0 = std::max(0, static_cast<int>(std::ceil(std::min({a.x(), b.x(), c.x()}))));
     const int x1 =
         std::min(image_.width() - 1, static_cast<int>(std::floor(std::max({a.x(), b.x(), c.x()}))));
+    const double inverse = 1 / doubled_area;
+    const auto weights = [&](int x, int y) {
+      const double u = ((b.x() - x) * (c.y() - y) - (b.y() - y) * (c.x() - x)) * inverse;
+      const double v = ((c.x() - x) * (a.y() - y) - (c.y() - y) * (a.x() - x)) * inverse;
+      return std::array<double, 3>{u, v, 1 - u - v};
+    };
+    const auto inside = [&](int x, int y) {
+      const auto [u, v, w] = weights(x, y);
+      return u >= -1e-9 && v >= -1e-9 && w >= -1e-9;
+    };
+    const double z_per_x =
+        ((b.y() - c.y()) * a.z() + (c.y() - a.y()) * b.z() + (a.y() - b.y()) * c.z()) * inverse;
     for (int y = y0; y <= y1; ++y) {
-      const auto [first, last] = inside_row({a, b, c}, y, x0, x1);
-      for (int x = first; x <= last; ++x) {
-        const double u = ((b.x() - x) * (c.y() - y) - (b.y() - y) * (c.x() - x)) / doubled_area;
-        const double v = ((c.x() - x) * (a.y() - y) - (c.y() - y) * (a.x() - x)) / doubled_area;
-        const double w = 1 - u - v;
-        if (u >= -1e-9 && v >= -1e-9 && w >= -1e-9) {
-          plot(x, y, u * a.z() + v * b.z() + w * c.z(), colour);
-        }
+      auto [first, last] = inside_row({a, b, c}, y, x0, x1);
+      while (first <= last && !inside(first, y)) {
+        ++first;
+      }
+      while (first < last && !inside(last, y)) {
+        --last;
+      }
+      if (first <= last) {
+        const auto [u, v, w] = weights(first, y);
+        fill_row(first, last, y, u * a.z() + v * b.z() + w * c.z(), z_per_x, colour);
+      }
+    }
+  }
+
+  /// The pixels [first, last] of a row, of a surface whose depth grows by z_per_x from one to the next.
+  void fill_row(int first, int last, int y, double z, double z_per_x, Colour colour) {
+    float* const depth = depth_.data() + static_cast<std::size_t>(y) * image_.width();
+    Colour* const pixels = image_.row(y);
+    for (int x = first; x <= last; ++x, z += z_per_x) {
+      if (static_cast<float>(z) > depth[x]) {
+        depth[x] = static_cast<float>(z);
+        pixels[x] = colour;
       }
     }
   }
@@ -198,12 +233,7 @@ Image render(const Drawing& drawing, const View& view) {
       continue;
     }
     const Vector3d p = project(drawing.points[i]);
-    for (int dy = 0; dy < size; ++dy) {
-      for (int dx = 0; dx < size; ++dx) {
-        buffer.plot(static_cast<int>(p.x()) + dx, static_cast<int>(p.y()) + dy, p.z(),
-                    drawing.point_colours[i]);
-      }
-    }
+    buffer.square(static_cast<int>(p.x()), static_cast<int>(p.y()), size, p.z(), drawing.point_colours[i]);
   }
   return halved(image);
 }

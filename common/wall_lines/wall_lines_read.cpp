@@ -6,6 +6,7 @@
 
 #include "common/artefact/artefact_check.h"
 #include "common/artefact/atomic_file.h"
+#include "common/artefact/known_artefacts.h"
 #include "common/errors/codes.h"
 #include "common/wall_lines/wall_lines_format.h"
 #include "common/wall_lines/wall_lines_io.h"
@@ -111,6 +112,8 @@ WallLinesFile read_wall_lines(const std::filesystem::path& path) {
                            member.at("schema_version").get<std::string>(), artefacts::kWallLines);
     read_member(member, file);
     read_features(document.at("features"), file.content.lines);
+    remember_artefact(path, {"", artefacts::kWallLines.name, member.at("schema_version").get<std::string>(),
+                             member.at("provenance").at("payload_sha256").get<std::string>(), ""});
   } catch (const Json::exception& error) {
     throw StageError(errors::kArtefactDamaged, path.string(),
                      std::string("not a wall_lines artefact: ") + error.what(), remedy);

@@ -72,9 +72,10 @@ HoughPicture picture_of(const HoughAccumulator& votes, const Rules& rules) {
   picture.centre = rules.centre;
   picture.votes_m.assign(picture.angles * picture.distances, 0);
   for (std::size_t a = 0; a < votes.angles(); ++a) {
-    for (std::size_t d = 0; d < votes.distances(); ++d) {
-      float& pixel = picture.votes_m[a / per_angle * picture.distances + d / per_distance];
-      pixel = std::max(pixel, static_cast<float>(votes.votes_m(a, d)));
+    float* pixel = picture.votes_m.data() + a / per_angle * picture.distances;
+    for (std::size_t d = 0; d < votes.distances(); d += per_distance, ++pixel) {
+      const std::size_t end = std::min(d + per_distance, votes.distances());
+      *pixel = std::max(*pixel, static_cast<float>(votes.highest_m(a, d, end)));
     }
   }
   return picture;

@@ -39,7 +39,9 @@ void HoughAccumulator::vote(const Vec2& p, double theta, double window, double w
     row[-1] += half;
     row[0] += 2 * half;
     row[1] += half;
-    best_[angle].stale = true;
+    // Votes that are taken back elsewhere leave the highest bin where it was.
+    const std::size_t highest = best_[angle].distance;
+    best_[angle].stale |= half > 0 || (highest + 1 >= bin && highest <= bin + 1);
   }
 }
 
@@ -64,8 +66,10 @@ void HoughAccumulator::suppress(const Peak& peak) {
   best_[peak.angle].stale = true;
 }
 
-double HoughAccumulator::votes_m(std::size_t angle, std::size_t distance) const {
-  return votes_[angle * distances_ + distance] * kVoteUnit;
+double HoughAccumulator::highest_m(std::size_t angle, std::size_t begin, std::size_t end) const {
+  const auto row = votes_.begin() + static_cast<std::ptrdiff_t>(angle * distances_);
+  return *std::max_element(row + static_cast<std::ptrdiff_t>(begin), row + static_cast<std::ptrdiff_t>(end)) *
+         kVoteUnit;
 }
 
 }  // namespace roomcut

@@ -37,7 +37,8 @@ class HoughAccumulator {
   double distance0() const {
     return -radius_;
   }  ///< lower edge of the first distance bin, from the centre [m]
-  double votes_m(std::size_t angle, std::size_t distance) const;
+  /// The highest of the distances [begin, end), which must not be empty [m].
+  double highest_m(std::size_t angle, std::size_t begin, std::size_t end) const;
 
  private:
   struct Best {

@@ -2,6 +2,7 @@
 #include "stages/find_openings/wall_evidence.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -76,8 +77,35 @@ WallEvidence::WallEvidence(const std::vector<RoomWall>& walls, const std::vector
 
 WallEvidence::~WallEvidence() = default;
 
-std::vector<const WallEvidence::Sums*> WallEvidence::walls_near(const CloudTile& tile) const {
+/// Whether a wall meets the box.
+bool WallEvidence::meets(const Sums& sums, const Vec2& low, const Vec2& high) const {
+  const Vec2 centre = 0.5 * (low + high);
+  const Vec2 half = 0.5 * (high - low);
+  const double depth = sums.normal.dot(centre) - sums.offset;
+  const double across = sums.normal.cwiseAbs().dot(half);
+  const double t = sums.direction.dot(centre);
+  const double along = sums.direction.cwiseAbs().dot(half);
+  return depth + across >= -margin_m_ && depth - across <= sums.reach_m && t + along >= sums.wall->t0() &&
+         t - along <= sums.wall->t1();
+}
+
+/// The walls near a tile, sorted into the cells of a grid: most points have none.
+struct WallEvidence::Near {
+  static constexpr int kCells = 16;  // along each side
+  Vec2 low{0, 0}, cell{1, 1};
+  bool any = false;
+  std::array<std::vector<const Sums*>, std::size_t{kCells} * kCells> walls;
+
+  const std::vector<const Sums*>& at(double x, double y) const {
+    const int ix = std::min(kCells - 1, static_cast<int>((x - low.x()) / cell.x()));
+    const int iy = std::min(kCells - 1, static_cast<int>((y - low.y()) / cell.y()));
+    return walls[static_cast<std::size_t>(iy * kCells + ix)];
+  }
+};
+
+WallEvidence::Near WallEvidence::walls_near(const CloudTile& tile) const {
   constexpr double kFar = std::numeric_limits<double>::max();
+  constexpr double kRounding = 1e-6;  // [m] of a point at the border of a cell
   Vec2 low(kFar, kFar);
   Vec2 high(-kFar, -kFar);
   for (std::size_t i = 0; i < tile.size(); ++i) {
@@ -85,17 +113,21 @@ std::vector<const WallEvidence::Sums*> WallEvidence::walls_near(const CloudTile&
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  const Vec2 centre = 0.5 * (low + high);
-  const Vec2 half = 0.5 * (high - low);
-  std::vector<const Sums*> near;
+  Near near;
+  near.low = low;
+  near.cell = ((high - low) / Near::kCells).cwiseMax(kRounding);
   for (const auto& sums : sums_) {
-    const double depth = sums->normal.dot(centre) - sums->offset;
-    const double across = sums->normal.cwiseAbs().dot(half);
-    const double t = sums->direction.dot(centre);
-    const double along = sums->direction.cwiseAbs().dot(half);
-    if (depth + across >= -margin_m_ && depth - across <= sums->reach_m && t + along >= sums->wall->t0() &&
-        t - along <= sums->wall->t1()) {
-      near.push_back(sums.get());
+    if (tile.size() == 0 || !meets(*sums, low, high)) {
+      continue;
+    }
+    near.any = true;
+    for (int iy = 0; iy < Near::kCells; ++iy) {
+      for (int ix = 0; ix < Near::kCells; ++ix) {
+        const Vec2 corner = low + near.cell.cwiseProduct(Vec2(ix, iy));
+        if (meets(*sums, corner.array() - kRounding, (corner + near.cell).array() + kRounding)) {
+          near.walls[static_cast<std::size_t>(iy * Near::kCells + ix)].push_back(sums.get());
+        }
+      }
     }
   }
   return near;
@@ -133,12 +165,12 @@ void WallEvidence::add_point(const Sums& sums, const Vec2& p, double z) {
 }
 
 void WallEvidence::add(const CloudTile& tile) {
-  const std::vector<const Sums*> near = walls_near(tile);
-  if (near.empty()) {
+  const Near near = walls_near(tile);
+  if (!near.any) {
     return;
   }
   for (std::size_t i = 0; i < tile.size(); ++i) {
-    for (const Sums* sums : near) {
+    for (const Sums* sums : near.at(tile.x[i], tile.y[i])) {
       add_point(*sums, Vec2(tile.x[i], tile.y[i]), tile.z[i]);
     }
   }

@@ -42,7 +42,9 @@ class WallEvidence {
 
  private:
   struct Sums;
-  std::vector<const Sums*> walls_near(const CloudTile& tile) const;
+  struct Near;
+  bool meets(const Sums& sums, const Vec2& low, const Vec2& high) const;
+  Near walls_near(const CloudTile& tile) const;
   void add_point(const Sums& sums, const Vec2& p, double z);
 
   std::vector<std::unique_ptr<Sums>> sums_;

@@ -16,24 +16,40 @@ constexpr double kTukeyVariance = 1.166;
 constexpr double kModeWindow = 2.0;  ///< half width of the first window in standard deviations
 constexpr int kIterations = 30;
 
+/// A bin that holds points.
 struct Bin {
+  int place;
   double offset;
   std::uint32_t count;
 };
 
+/// The bins that hold points, most often a few of many.
+class Bins {
+ public:
+  void add(const Bin& bin) { bins_[size_++] = bin; }
+  const Bin* begin() const { return bins_.data(); }
+  const Bin* end() const { return bins_.data() + size_; }
+
+ private:
+  std::array<Bin, OffsetHistogram::kBins> bins_{};
+  std::size_t size_ = 0;
+};
+
 /// Centre of the fullest window; of equal ones that nearest to 0.
-double fullest_window(const std::array<Bin, OffsetHistogram::kBins>& bins, double width_m, double noise_m) {
+double fullest_window(const Bins& bins, double width_m, double noise_m) {
   const int reach = std::max(1, static_cast<int>(std::lround(kModeWindow * noise_m / width_m)));
   double best_offset = 0;
   std::uint64_t best_count = 0;
+  const Bin* first = bins.begin();
   for (int centre = 0; centre < OffsetHistogram::kBins; ++centre) {
     std::uint64_t count = 0;
     double sum = 0;
-    for (int k = std::max(0, centre - reach); k <= std::min(OffsetHistogram::kBins - 1, centre + reach);
-         ++k) {
-      const Bin& bin = bins[static_cast<std::size_t>(k)];
-      count += bin.count;
-      sum += bin.count * bin.offset;
+    while (first != bins.end() && first->place < centre - reach) {
+      ++first;
+    }
+    for (const Bin* bin = first; bin != bins.end() && bin->place <= centre + reach; ++bin) {
+      count += bin->count;
+      sum += bin->count * bin->offset;
     }
     const double offset = count > 0 ? sum / static_cast<double>(count) : 0;
     if (count > best_count || (count == best_count && std::abs(offset) < std::abs(best_offset))) {
@@ -59,12 +75,13 @@ double OffsetHistogram::mean(std::uint64_t packed) {
 RobustOffset robust_offset(std::span<const std::uint64_t> histogram, double half_m, double noise_m) {
   const double width = 2 * half_m / OffsetHistogram::kBins;
   const double noise = std::max(noise_m, 0.5 * width);
-  std::array<Bin, OffsetHistogram::kBins> bins{};
-  for (std::size_t k = 0; k < bins.size(); ++k) {
-    const std::uint32_t count = OffsetHistogram::count(histogram[k]);
-    bins[k] = {
-        count > 0 ? -half_m + (static_cast<double>(k) + OffsetHistogram::mean(histogram[k])) * width : 0,
-        count};
+  Bins bins;
+  for (int k = 0; k < OffsetHistogram::kBins; ++k) {
+    const std::uint64_t packed = histogram[static_cast<std::size_t>(k)];
+    const std::uint32_t count = OffsetHistogram::count(packed);
+    if (count > 0) {
+      bins.add({k, -half_m + (k + OffsetHistogram::mean(packed)) * width, count});
+    }
   }
   const double cut = kTukey * noise;
   double location = fullest_window(bins, width, noise);
@@ -76,7 +93,7 @@ RobustOffset robust_offset(std::span<const std::uint64_t> histogram, double half
     std::uint32_t inside = 0;
     for (const Bin& bin : bins) {
       const double u = (bin.offset - location) / cut;
-      if (bin.count > 0 && std::abs(u) < 1) {
+      if (std::abs(u) < 1) {
         const double weight = bin.count * (1 - u * u) * (1 - u * u);
         weights += weight;
         sum += weight * bin.offset;

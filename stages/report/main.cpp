@@ -5,6 +5,7 @@
 #include "common/artefact/unsynced_file.h"
 #include "common/cli/run_stage.h"
 #include "stages/report/report_io.h"
+#include "stages/report/thinned_points.h"
 
 namespace {
 
@@ -59,14 +60,18 @@ int main(int argc, char** argv) {
       }
       return;
     }
-    const auto pictures = draw_pictures(run, params, only);
+    std::vector<ThinPoint> points;
+    if ((only == "all" || only == "pictures" || only == "ingest") && run.has_input("cloud")) {
+      points = thinned_points(run, static_cast<std::uint64_t>(params.cloud_points));
+    }
+    const auto pictures = draw_pictures(run, params, only, points);
     run.count("pictures", static_cast<double>(pictures.size()));
     if (only != "all") {
       write_plots(run, pictures);
       return;
     }
     write_overview(run, pictures);
-    const std::string html = make_page(run, params);
+    const std::string html = make_page(run, points);
     write_text_file(page, html);
     run.count("page", static_cast<double>(html.size()) / 1e6, "MB");
   });

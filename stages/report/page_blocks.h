@@ -5,7 +5,7 @@
 
 #include "common/cli/run_stage.h"
 #include "stages/report/page_block.h"
-#include "stages/report/params.h"
+#include "stages/report/page_points.h"
 
 namespace roomcut {
 
@@ -25,6 +25,7 @@ void add_log_block(const StageRun& run, std::vector<PageBlock>& blocks);
 void add_plan_blocks(const StageRun& run, std::vector<PageBlock>& blocks);
 
 /// `model`: the triangles with kind, storey, region; `cloud`: the thinned scan with distances from the model.
-void add_model_blocks(const StageRun& run, const ReportParams& params, std::vector<PageBlock>& blocks);
+void add_model_blocks(const StageRun& run, const std::vector<ThinPoint>& points,
+                      std::vector<PageBlock>& blocks);
 
 }  // namespace roomcut

@@ -33,13 +33,13 @@ std::string page_template(StageRun& run) {
 
 }  // namespace
 
-std::string make_page(StageRun& run, const ReportParams& params) {
+std::string make_page(StageRun& run, const std::vector<ThinPoint>& points) {
   const std::string html = page_template(run);
   std::vector<PageBlock> blocks;
   add_run_blocks(run, blocks);
   add_log_block(run, blocks);
   add_plan_blocks(run, blocks);
-  add_model_blocks(run, params, blocks);
+  add_model_blocks(run, points, blocks);
   return fill_template(html, blocks);
 }
 

@@ -5,7 +5,6 @@
 #include "common/mesh/mesh_io.h"
 #include "stages/report/page_blocks.h"
 #include "stages/report/page_points.h"
-#include "stages/report/thinned_points.h"
 
 namespace roomcut {
 
@@ -20,7 +19,7 @@ TriangleMesh local_model(const StageRun& run, const Frame& frame) {
   return model;
 }
 
-PageBlock model_block(const TriangleMesh& model, const std::vector<ThinPoint>& points) {
+PageBlock model_block(const TriangleMesh& model, const std::vector<MeshTree::Hit>& nearest) {
   PageBlockBuilder block("model");
   std::vector<float> vertices;
   for (const Vec3& vertex : model.vertices) {
@@ -37,18 +36,18 @@ PageBlock model_block(const TriangleMesh& model, const std::vector<ThinPoint>& p
   block.add("kind", model.kind);
   block.add("storey", model.storey);
   block.add("region", model.region);
-  if (!points.empty() && !model.region.empty()) {
+  if (!nearest.empty() && !model.region.empty()) {
     const auto regions =
         static_cast<std::size_t>(*std::max_element(model.region.begin(), model.region.end()) + 1);
-    block.add("region_distance", region_distances(points, model, regions));
+    block.add("region_distance", region_distances(nearest, model, regions));
   }
   return block.finish();
 }
 
 PageBlock cloud_block(const CloudHeader& header, const std::vector<ThinPoint>& points,
-                      const TriangleMesh* model) {
+                      const std::vector<MeshTree::Hit>& nearest) {
   PageBlockBuilder block("cloud");
-  const PagePoints packed = pack_points(points, model);
+  const PagePoints packed = pack_points(points, nearest);
   block.facts["low"] = {packed.low.x(), packed.low.y(), packed.low.z()};
   block.facts["step"] = {packed.step.x(), packed.step.y(), packed.step.z()};
   block.facts["points"] = header.points;
@@ -60,24 +59,28 @@ PageBlock cloud_block(const CloudHeader& header, const std::vector<ThinPoint>& p
   block.add("xyz", packed.xyz);
   block.add("surface", packed.surface);
   block.add("distance", packed.distance);
-  return block.finish();
+  PageBlock finished = block.finish();
+  finished.noisy = true;
+  return finished;
 }
 
 }  // namespace
 
-void add_model_blocks(const StageRun& run, const ReportParams& params, std::vector<PageBlock>& blocks) {
+void add_model_blocks(const StageRun& run, const std::vector<ThinPoint>& points,
+                      std::vector<PageBlock>& blocks) {
   if (!run.has_input("cloud")) {
     return;  // without it the frame is not known either
   }
   const CloudHeader header = CloudReader(run.input("cloud")).header();
-  const auto points = thinned_points(run, static_cast<std::uint64_t>(params.cloud_points));
+  std::vector<MeshTree::Hit> nearest;
   if (run.has_input("model")) {
     const TriangleMesh model = local_model(run, header.frame);
-    blocks.push_back(model_block(model, points));
-    blocks.push_back(cloud_block(header, points, &model));
-  } else {
-    blocks.push_back(cloud_block(header, points, nullptr));
+    if (!model.triangles.empty()) {
+      nearest = nearest_of_model(points, model);
+    }
+    blocks.push_back(model_block(model, nearest));
   }
+  blocks.push_back(cloud_block(header, points, nearest));
 }
 
 }  // namespace roomcut

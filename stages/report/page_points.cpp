@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages/report/page_points.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "common/mesh/nearest_triangles.h"
 
 namespace roomcut {
 
@@ -14,21 +14,18 @@ namespace {
 constexpr int kFar = 255;
 constexpr double kUnits = 65535;
 
-std::vector<MeshTree::Hit> nearest_triangles(const std::vector<ThinPoint>& points,
-                                             const TriangleMesh& model) {
-  const MeshTree tree(model);
-  std::vector<MeshTree::Hit> hits(points.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 1024), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      hits[i] = tree.nearest(points[i].at, kFar * kDistanceStep_m);
-    }
-  });
-  return hits;
-}
-
 }  // namespace
 
-PagePoints pack_points(const std::vector<ThinPoint>& points, const TriangleMesh* model) {
+std::vector<MeshTree::Hit> nearest_of_model(const std::vector<ThinPoint>& points, const TriangleMesh& model) {
+  std::vector<Vec3> places;
+  places.reserve(points.size());
+  for (const ThinPoint& point : points) {
+    places.push_back(point.at);
+  }
+  return nearest_triangles(model, places, kFar * kDistanceStep_m);
+}
+
+PagePoints pack_points(const std::vector<ThinPoint>& points, const std::vector<MeshTree::Hit>& nearest) {
   PagePoints packed;
   if (points.empty()) {
     return packed;
@@ -49,20 +46,19 @@ PagePoints pack_points(const std::vector<ThinPoint>& points, const TriangleMesh*
     }
     packed.surface.push_back(point.surface);
   }
-  if (model != nullptr && !model->triangles.empty()) {
-    for (const MeshTree::Hit& hit : nearest_triangles(points, *model)) {
-      packed.distance.push_back(static_cast<std::uint8_t>(
-          std::min<double>(kFar, std::round(std::min(hit.distance, 1.0) / kDistanceStep_m))));
-    }
+  packed.distance.reserve(nearest.size());
+  for (const MeshTree::Hit& hit : nearest) {
+    packed.distance.push_back(static_cast<std::uint8_t>(
+        std::min<double>(kFar, std::round(std::min(hit.distance, 1.0) / kDistanceStep_m))));
   }
   return packed;
 }
 
-std::vector<float> region_distances(const std::vector<ThinPoint>& points, const TriangleMesh& model,
+std::vector<float> region_distances(const std::vector<MeshTree::Hit>& nearest, const TriangleMesh& model,
                                     std::size_t regions) {
   std::vector<double> sum(regions, 0);
   std::vector<std::size_t> count(regions, 0);
-  for (const MeshTree::Hit& hit : nearest_triangles(points, model)) {
+  for (const MeshTree::Hit& hit : nearest) {
     if (hit.triangle >= 0 && hit.distance < kFar * kDistanceStep_m) {
       const auto region = static_cast<std::size_t>(model.region[static_cast<std::size_t>(hit.triangle)]);
       sum[region] += hit.distance * hit.distance;

@@ -28,14 +28,16 @@ struct ThinPoint {
   std::uint8_t surface;
 };
 
-/// Packs points; `model` (local metres) may be null. Order is kept. Runs on TBB; the result does not depend
-/// on the number of threads.
-PagePoints pack_points(const std::vector<ThinPoint>& points, const TriangleMesh* model);
+/// The triangle of the model (local metres) nearest to each point, as far as 255 steps.
+std::vector<MeshTree::Hit> nearest_of_model(const std::vector<ThinPoint>& points, const TriangleMesh& model);
+
+/// Packs points with what nearest_of_model() says of them; `nearest` is empty without a model. Order is kept.
+PagePoints pack_points(const std::vector<ThinPoint>& points, const std::vector<MeshTree::Hit>& nearest);
 
 /// Per surface region of the model the root of the mean squared distance of the points whose nearest triangle
 /// lies in it and that are no farther than 254 steps [m]; NaN where there are none. `regions` is the number
 /// of regions.
-std::vector<float> region_distances(const std::vector<ThinPoint>& points, const TriangleMesh& model,
+std::vector<float> region_distances(const std::vector<MeshTree::Hit>& nearest, const TriangleMesh& model,
                                     std::size_t regions);
 
 }  // namespace roomcut

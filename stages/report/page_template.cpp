@@ -14,12 +14,13 @@ namespace {
 
 constexpr int kGzipWindow = 15 + 16;  // zlib: the largest window, with a gzip header
 constexpr int kMemory = 9;
+constexpr int kQuick = 3;
 
 }  // namespace
 
-std::string gzip(std::string_view bytes) {
+std::string gzip(std::string_view bytes, bool noisy) {
   z_stream stream{};
-  if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzipWindow, kMemory, Z_DEFAULT_STRATEGY) !=
+  if (deflateInit2(&stream, kQuick, Z_DEFLATED, kGzipWindow, kMemory, noisy ? Z_RLE : Z_DEFAULT_STRATEGY) !=
       Z_OK) {
     throw std::runtime_error("zlib cannot begin");
   }
@@ -44,9 +45,10 @@ std::string fill_template(std::string_view page_template, const std::vector<Page
   }
   std::string page(page_template.substr(0, mark));
   for (const PageBlock& block : blocks) {
-    const std::string packed = gzip(block.bytes);
-    page += "<script type=\"application/octet-stream\" id=\"block-" + block.name + "\">" +
-            base64({reinterpret_cast<const std::uint8_t*>(packed.data()), packed.size()}) + "</script>\n";
+    const std::string packed = gzip(block.bytes, block.noisy);
+    page += "<script type=\"application/octet-stream\" id=\"block-" + block.name + "\">";
+    page += base64({reinterpret_cast<const std::uint8_t*>(packed.data()), packed.size()});
+    page += "</script>\n";
   }
   page += page_template.substr(mark + kDataMark.size());
   return page;

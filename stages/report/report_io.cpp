@@ -14,7 +14,6 @@
 #include "common/wall_lines/wall_lines_io.h"
 #include "stages/report/occupancy_raster.h"
 #include "stages/report/pass_pictures.h"
-#include "stages/report/thinned_points.h"
 
 namespace roomcut {
 
@@ -27,12 +26,15 @@ std::vector<WallLine> lines_of(const StageRun& run, const std::string& input) {
   return read_wall_lines(run.input(input)).content.lines;
 }
 
-void draw_scan(const StageRun& run, const ReportParams& params, Pictures& pictures) {
-  std::vector<Vec3> points;
-  for (const ThinPoint& point : thinned_points(run, static_cast<std::uint64_t>(params.cloud_points))) {
-    points.push_back(point.at);
-  }
-  pictures.push_back(draw_cloud(points, params.picture_px));
+Draw draw_scan(const std::vector<ThinPoint>& points) {
+  return [&points](const StageRun& /*run*/, const ReportParams& params, Pictures& pictures) {
+    std::vector<Vec3> places;
+    places.reserve(points.size());
+    for (const ThinPoint& point : points) {
+      places.push_back(point.at);
+    }
+    pictures.push_back(draw_cloud(places, params.picture_px));
+  };
 }
 
 void draw_levels(const StageRun& run, const ReportParams& /*params*/, Pictures& pictures) {
@@ -89,10 +91,10 @@ void add_pass(const std::string& prefix, const PassInputs& inputs, bool overview
   add("graphcut", {inputs.cells, inputs.terms, inputs.labels}, overview, draw_labels_of);
 }
 
-std::vector<StageDrawing> stage_drawings() {
+std::vector<StageDrawing> stage_drawings(const std::vector<ThinPoint>& points) {
   const PassInputs first{"first_cells", "first_weights", "first_terms", "first_labels"};
   const PassInputs second{"cells", "weights", "terms", "labels"};
-  std::vector<StageDrawing> list = {{"ingest", {"cloud"}, true, draw_scan},
+  std::vector<StageDrawing> list = {{"ingest", {"cloud"}, true, draw_scan(points)},
                                     {"slice", {"slices"}, true, draw_levels},
                                     {"detect_lines", {"slices", "detected"}, true, draw_detection},
                                     {"accept_lines", {"detected", "lines"}, false, draw_accepted}};
@@ -133,16 +135,17 @@ std::vector<StageFile> report_inputs() {
 
 std::vector<std::string> report_choices() {
   std::vector<std::string> choices = {"all", "pictures", "layers"};
-  for (const StageDrawing& drawing : stage_drawings()) {
+  for (const StageDrawing& drawing : stage_drawings({})) {
     choices.push_back(drawing.stage);
   }
   return choices;
 }
 
-std::vector<Picture> draw_pictures(const StageRun& run, const ReportParams& params, const std::string& only) {
+std::vector<Picture> draw_pictures(const StageRun& run, const ReportParams& params, const std::string& only,
+                                   const std::vector<ThinPoint>& points) {
   const bool overview = only == "all" || only == "pictures";
   Pictures pictures;
-  for (const StageDrawing& drawing : stage_drawings()) {
+  for (const StageDrawing& drawing : stage_drawings(points)) {
     const bool wanted = overview ? drawing.overview : drawing.stage == only;
     if (wanted && std::all_of(drawing.needs.begin(), drawing.needs.end(),
                               [&](const std::string& input) { return run.has_input(input); })) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/cli/run_stage.h"
+#include "stages/report/page_points.h"
 #include "stages/report/params.h"
 #include "stages/report/pictures.h"
 
@@ -18,8 +19,10 @@ std::vector<StageFile> report_inputs();
 std::vector<std::string> report_choices();
 
 /// The pictures of one run of the pipeline, or those that give an overview of all ("all", "pictures"), in the
-/// order of the pipeline, as far as the artefacts are there. Errors: those of the artefacts' readers.
-std::vector<Picture> draw_pictures(const StageRun& run, const ReportParams& params, const std::string& only);
+/// order of the pipeline, as far as the artefacts are there; `points`: the thinned scan, for "ingest" and the
+/// overview. Errors: those of the artefacts' readers.
+std::vector<Picture> draw_pictures(const StageRun& run, const ReportParams& params, const std::string& only,
+                                   const std::vector<ThinPoint>& points);
 
 /// The occupancy grid of each wall slice as files for QGIS: slice_<k>.png with slice_<k>.pgw and
 /// slice_<k>.png.aux.xml, which say where it lies. `file` is the name, `bytes` the content.
@@ -28,6 +31,6 @@ std::vector<Picture> draw_layers(const StageRun& run);
 /// The whole page: the template (option `template`) filled with the data of this run. Without a template (the
 /// build could not fetch the front end) a page that says so, after a warning. Errors: those of the artefacts'
 /// readers.
-std::string make_page(StageRun& run, const ReportParams& params);
+std::string make_page(StageRun& run, const std::vector<ThinPoint>& points);
 
 }  // namespace roomcut

@@ -19,14 +19,14 @@ struct CellKey {
 };
 
 /// Orders cells column by column: (iy, ix, iz).
-inline bool by_column(const CellKey& a, const CellKey& b) {
+inline constexpr auto by_column = [](const CellKey& a, const CellKey& b) {
   return std::tie(a.iy, a.ix, a.iz) < std::tie(b.iy, b.ix, b.iz);
-}
+};
 
 /// Orders cells slice by slice: (iz, iy, ix).
-inline bool by_slice(const CellKey& a, const CellKey& b) {
+inline constexpr auto by_slice = [](const CellKey& a, const CellKey& b) {
   return std::tie(a.iz, a.iy, a.ix) < std::tie(b.iz, b.iy, b.ix);
-}
+};
 
 /// Sums per cell of a sparse raster: open addressing over a dense list of entries. Neighbouring points mostly
 /// share a cell, so the last cell is tried first. Sum needs an operator+= whose result does not depend on the
@@ -89,9 +89,8 @@ class CellTable {
 };
 
 /// Joins the entries of all tiles: sorted by `less`, cells that straddle tiles added up. Order-free.
-template <class Sum>
-std::vector<CellEntry<Sum>> merged(std::vector<std::vector<CellEntry<Sum>>> parts,
-                                   bool (*less)(const CellKey&, const CellKey&)) {
+template <class Sum, class Less>
+std::vector<CellEntry<Sum>> merged(std::vector<std::vector<CellEntry<Sum>>> parts, Less less) {
   std::vector<CellEntry<Sum>> all;
   std::size_t total = 0;
   for (const auto& part : parts) total += part.size();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "stages/slice/fixed_point.h"
 #include "stages/slice/surface_graph.h"
 
 namespace roomcut {
@@ -18,13 +19,15 @@ using Members = std::vector<std::size_t>;
 
 /// Cells of each set, in the order of the sets' first cells.
 std::vector<Members> sets_of(DisjointSets& sets, std::size_t cells) {
-  std::vector<std::pair<std::size_t, std::size_t>> pairs(cells);  // (set, cell)
-  for (std::size_t i = 0; i < cells; ++i) pairs[i] = {sets.root(i), i};
-  std::sort(pairs.begin(), pairs.end());
   std::vector<Members> groups;
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    if (k == 0 || pairs[k].first != pairs[k - 1].first) groups.emplace_back();
-    groups.back().push_back(pairs[k].second);
+  std::vector<std::size_t> group(cells);  // of a root; it is the first cell of its set
+  for (std::size_t i = 0; i < cells; ++i) {
+    const std::size_t root = sets.root(i);
+    if (root == i) {
+      group[i] = groups.size();
+      groups.emplace_back();
+    }
+    groups[group[root]].push_back(i);
   }
   return groups;
 }
@@ -47,13 +50,18 @@ double median(std::vector<double>& values) {
 /// drift.
 double drift_of(const std::vector<SurfaceCell>& cells, const std::vector<std::size_t>& members,
                 double raster_m, double noise_m) {
-  std::map<std::pair<std::int32_t, std::int32_t>, Block> blocks;
+  using Place = std::pair<std::int32_t, std::int32_t>;
+  std::map<Place, Block> blocks;
   const double per_block = raster_m / kBlock;
+  auto last = blocks.end();  // neighbours in a row mostly share a block
   for (const std::size_t i : members) {
-    Block& block = blocks[{static_cast<std::int32_t>(std::floor((cells[i].iy + 0.5) * per_block)),
-                           static_cast<std::int32_t>(std::floor((cells[i].ix + 0.5) * per_block))}];
-    block.area += cells[i].area_m2;
-    block.moment += cells[i].area_m2 * cells[i].z;
+    const Place place{floor_to_int((cells[i].iy + 0.5) * per_block),
+                      floor_to_int((cells[i].ix + 0.5) * per_block)};
+    if (last == blocks.end() || last->first != place) {
+      last = blocks.try_emplace(place).first;
+    }
+    last->second.area += cells[i].area_m2;
+    last->second.moment += cells[i].area_m2 * cells[i].z;
   }
   std::erase_if(blocks, [](const auto& entry) { return entry.second.area < 0.2 * kBlock * kBlock; });
   std::array<std::vector<double>, 2> steps;  // along x and along y: a floor may tilt one way only

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -24,7 +25,15 @@ class AreaTable {
     }
   }
   /// Sum over the bins [x0, x1) × [y0, y1), clipped to the grid.
-  double bins(int x0, int x1, int y0, int y1) const;
+  double bins(int x0, int x1, int y0, int y1) const {
+    if (x0 < 0 || y0 < 0 || x1 > nx_ || y1 > ny_ || x0 > x1 || y0 > y1) {
+      x0 = std::clamp(x0, 0, nx_);
+      x1 = std::clamp(x1, x0, nx_);
+      y0 = std::clamp(y0, 0, ny_);
+      y1 = std::clamp(y1, y0, ny_);
+    }
+    return sums_[at(x1, y1)] - sums_[at(x0, y1)] - sums_[at(x1, y0)] + sums_[at(x0, y0)];
+  }
 
  private:
   std::size_t at(int x, int y) const {

@@ -155,6 +155,9 @@ void LevelRasters::weigh_level(std::size_t level, const Occupied& occupied, Face
 
 void LevelRasters::weigh_slopes(std::size_t layer, FaceWeights& weights) const {
   const std::size_t base = layer * faces_.pieces();
+  if (slope_.untouched(base, base + faces_.pieces())) {
+    return;  // no slopes there, as in most buildings
+  }
   const std::vector<float> share = covered_share([&](std::size_t i) { return slope_.at(base + i); });
   std::copy(share.begin(), share.end(),
             weights.cell_slope.begin() + static_cast<std::ptrdiff_t>(complex_.cell(0, layer)));

@@ -18,13 +18,17 @@ double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
 
 }  // namespace
 
-LineGrid::LineGrid(const CellComplex& complex, double reach) : grid_(complex, kBin) {
+LineGrid::LineGrid(const CellComplex& complex, double reach, double azimuth) : grid_(complex, kBin) {
   for (const CellComplex::Line& l : complex.lines) {
-    std::vector<bool> carries(complex.layers(), l.layers.empty());
+    std::vector<std::uint8_t> carries(complex.layers(), l.layers.empty() ? 1 : 0);
     for (const std::int32_t layer : l.layers) {
-      carries[static_cast<std::size_t>(layer)] = true;
+      carries[static_cast<std::size_t>(layer)] = 1;
     }
-    plan_lines_.push_back({l.line.normal(), l.line.direction(), l.line.d, l.line.theta, carries});
+    std::bitset<kAzimuthSteps> faces;
+    for (std::size_t step = 0; step < faces.size(); ++step) {
+      faces[step] = angle_between(l.line.theta, azimuth_of(static_cast<std::uint8_t>(step))) <= azimuth;
+    }
+    plan_lines_.push_back({l.line.normal(), l.line.direction(), l.line.d, l.line.theta, carries, faces});
   }
   std::vector<std::pair<std::size_t, std::int32_t>> entries;
   const double touch = reach + kBin * 0.7072;  // half a bin's diagonal

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <bitset>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "common/cloud/cloud.h"
 #include "stages/weigh_faces/plan_grid.h"
 
 namespace roomcut {
@@ -13,7 +15,8 @@ namespace roomcut {
 struct PlanLine {
   Vec2 normal, direction;
   double d, theta;
-  std::vector<bool> carries;  // per layer: whether the line may carry a wall there
+  std::vector<std::uint8_t> carries;  // per layer: whether the line may carry a wall there
+  std::bitset<kAzimuthSteps> faces;   // per azimuth of a point: whether its wall may lie on the line
   double distance(const Vec2& p) const { return normal.dot(p) - d; }
   double along(const Vec2& p) const { return direction.dot(p); }
 };
@@ -23,7 +26,8 @@ struct PlanLine {
 /// as they go.
 class LineGrid {
  public:
-  LineGrid(const CellComplex& complex, double reach);
+  /// A wall point may lie on a line whose normal differs from its own by at most `azimuth` [rad].
+  LineGrid(const CellComplex& complex, double reach, double azimuth);
 
   const PlanLine& line(std::int32_t index) const { return plan_lines_[static_cast<std::size_t>(index)]; }
 

@@ -28,11 +28,18 @@ struct PlanGrid {
     ny = std::max(1, static_cast<int>(std::ceil((high.y() - low.y()) / cell)));
   }
   std::size_t size() const { return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny); }
-  int column(double x) const { return static_cast<int>(std::floor((x - low.x()) / cell)); }
-  int row(double y) const { return static_cast<int>(std::floor((y - low.y()) / cell)); }
+  int column(double x) const { return whole((x - low.x()) / cell); }
+  int row(double y) const { return whole((y - low.y()) / cell); }
   bool contains(int ix, int iy) const { return ix >= 0 && iy >= 0 && ix < nx && iy < ny; }
   std::size_t index(int ix, int iy) const {
     return static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(ix);
+  }
+
+ private:
+  /// floor(), without the library call that it is on plain x86-64.
+  static int whole(double value) {
+    const int truncated = static_cast<int>(value);
+    return truncated - (value < truncated ? 1 : 0);
   }
 };
 

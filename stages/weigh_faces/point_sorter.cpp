@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace roomcut {
 
@@ -23,12 +24,12 @@ PointSorter::NearLevel PointSorter::nearest_level(double z) const {
   return {above, dz, reach};
 }
 
-std::int32_t PointSorter::wall_of(SurfaceClass surface, double theta) const {
+std::int32_t PointSorter::wall_of(SurfaceClass surface, std::uint8_t azimuth) const {
   std::int32_t best = -1;
   double best_e = tolerances_.wall_reach;
   if (surface == SurfaceClass::kWall) {
     for (const Candidate& c : candidates_) {
-      if (std::abs(c.e) < best_e && angle_between(line(c.line).theta, theta) <= tolerances_.azimuth) {
+      if (std::abs(c.e) < best_e && line(c.line).faces[azimuth]) {
         best = c.line;
         best_e = std::abs(c.e);
       }
@@ -65,7 +66,8 @@ std::int32_t PointSorter::wall_of_unclassed() const {
 }
 
 bool PointSorter::parallel(std::int32_t a, std::int32_t b) const {
-  return angle_between(line(a).theta, line(b).theta) <= tolerances_.azimuth;
+  const double apart = std::abs(line(a).theta - line(b).theta);  // both in [0, pi): no remainder is needed
+  return std::min(apart, std::numbers::pi - apart) <= tolerances_.azimuth;
 }
 
 void PointSorter::add_beside_walls(const Vec2& p, std::size_t level) {
@@ -125,12 +127,12 @@ void PointSorter::add(const Vec3& point, SurfaceClass surface, std::uint8_t azim
   const std::size_t layer =
       std::min(near.dz < 0 && near.level > 0 ? near.level - 1 : near.level, complex_.layers() - 1);
   for (const std::int32_t index : lines_.near(p)) {
-    if (line(index).carries[layer]) {
+    if (line(index).carries[layer] != 0) {
       candidates_.push_back({index, line(index).distance(p)});
     }
   }
   const double off = std::abs(near.dz);
-  const std::int32_t wall = wall_of(surface, azimuth_of(azimuth));
+  const std::int32_t wall = wall_of(surface, azimuth);
   if (wall >= 0) {
     walls_.add_on(wall, line(wall).along(p), z);
   }

@@ -39,7 +39,7 @@ class PointSorter {
   };
 
   NearLevel nearest_level(double z) const;
-  std::int32_t wall_of(SurfaceClass surface, double theta) const;
+  std::int32_t wall_of(SurfaceClass surface, std::uint8_t azimuth) const;
   void add_beside_walls(const Vec2& p, std::size_t level);
   void add_sloped(std::size_t piece, const NearLevel& near, std::size_t layer, double z);
   void add_beside_levels(const Vec2& p, double z);

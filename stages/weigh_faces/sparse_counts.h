@@ -37,6 +37,15 @@ class SparseCounts {
     const std::atomic<std::uint32_t>* block = table_[index / kBlock].load(std::memory_order_relaxed);
     return block == nullptr ? 0 : block[index % kBlock].load(std::memory_order_relaxed);
   }
+  /// Whether all of [begin, end) is 0, as far as blocks without memory tell. Likewise.
+  bool untouched(std::size_t begin, std::size_t end) const {
+    for (std::size_t b = begin / kBlock; b * kBlock < end; ++b) {
+      if (table_[b].load(std::memory_order_relaxed) != nullptr) {
+        return false;
+      }
+    }
+    return true;
+  }
 
  private:
   std::atomic<std::uint32_t>* make_block(std::size_t number) {

@@ -13,7 +13,7 @@ struct FaceWeigher::State {
   State(const CellComplex& c, const CloudHeader& cloud, const WeighFacesParams& params)
       : complex(c),
         tolerances(resolve_tolerances(params, cloud)),
-        lines(c, std::max(tolerances.wall_alone, tolerances.beside_high)),
+        lines(c, std::max(tolerances.wall_alone, tolerances.beside_high), tolerances.azimuth),
         walls(c, tolerances),
         levels(c, tolerances),
         inside(c.cells()) {}

@@ -25,7 +25,7 @@ from plot import plot
 
 SOURCE = os.path.realpath(os.path.join(os.path.dirname(__file__), "../.."))
 STAGES = ("ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines final_partition "
-          "final_weigh_faces final_raycast final_graphcut extract report").split()
+          "final_weigh_faces final_raycast final_graphcut find_openings extract report").split()
 OWN = {"MAKEFLAGS", "MFLAGS", "MAKELEVEL", "SCAN", "WORK", "CONFIG", "JOBS", "UP", "UNIT", "TRUTH", "QUIET"}
 ENVIRONMENT = {key: value for key, value in os.environ.items() if key not in OWN}
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "common/mesh/nearest_triangles.h"
 #include "common/random/counter_random.h"
 #include "tests/unit/mesh/shapes.h"
 
@@ -101,6 +102,32 @@ TEST(MeshTree, AnEmptySubsetAnswersWithNothing) {
   const MeshTree tree(mesh, {});
   EXPECT_TRUE(tree.empty());
   EXPECT_EQ(tree.nearest({0, 0, 0}).triangle, -1);
+}
+
+TEST(NearestTriangles, of_many_points_at_once_are_those_of_one_after_the_other) {
+  TriangleMesh mesh = random_triangles(300);
+  append(mesh, box({2, 2, 2}, {6, 7, 4}));  // points on a side of it have two triangles at the same distance
+  const MeshTree tree(mesh);
+  std::vector<Vec3> points;
+  for (std::uint64_t i = 0; i < 3000; ++i) {
+    points.push_back(random_point(3, i, 12));
+    points.push_back({2 + 4 * random_unit(1, 4, 2 * i), 2 + 5 * random_unit(1, 4, 2 * i + 1), 2});
+    points.push_back({2 + 0.001 * static_cast<double>(i), 2, 2});
+  }
+  for (const double limit : {0.25, 2.0, MeshTree::kInfinity}) {
+    const std::vector<MeshTree::Hit> hits = nearest_triangles(mesh, points, limit);
+    ASSERT_EQ(hits.size(), points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const MeshTree::Hit one = tree.nearest(points[i], limit);
+      EXPECT_EQ(hits[i].triangle, one.triangle);
+      EXPECT_EQ(hits[i].distance, one.distance);
+    }
+  }
+}
+
+TEST(NearestTriangles, without_triangles_or_points_there_are_none) {
+  EXPECT_EQ(nearest_triangles({}, {{0, 0, 0}}, 1).front().triangle, -1);
+  EXPECT_TRUE(nearest_triangles(box({0, 0, 0}, {1, 1, 1}), {}, 1).empty());
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ TriangleMesh two_squares() {
 
 TEST(PagePoints, coordinates_come_back_within_half_a_step) {
   const std::vector<ThinPoint> points = {{{-3, 5, 1}, 2}, {{40.123, 5.5, 1.25}, 1}, {{17.7, 60.9, 9.03}, 0}};
-  const PagePoints packed = pack_points(points, nullptr);
+  const PagePoints packed = pack_points(points, {});
   ASSERT_EQ(packed.xyz.size(), 9U);
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -40,14 +40,13 @@ TEST(PagePoints, coordinates_come_back_within_half_a_step) {
 }
 
 TEST(PagePoints, no_points_give_no_arrays) {
-  const TriangleMesh model = two_squares();
-  EXPECT_TRUE(pack_points({}, &model).xyz.empty());
+  EXPECT_TRUE(pack_points({}, nearest_of_model({}, two_squares())).xyz.empty());
 }
 
 TEST(PagePoints, distances_are_millimetres_from_the_nearest_triangle) {
   const TriangleMesh model = two_squares();
-  const PagePoints packed =
-      pack_points({{{0.5, 0.5, 0.012}, 1}, {{0.25, 0.5, 1.9}, 1}, {{0.5, 0.5, 1.0}, 1}}, &model);
+  const std::vector<ThinPoint> points = {{{0.5, 0.5, 0.012}, 1}, {{0.25, 0.5, 1.9}, 1}, {{0.5, 0.5, 1.0}, 1}};
+  const PagePoints packed = pack_points(points, nearest_of_model(points, model));
   ASSERT_EQ(packed.distance.size(), 3U);
   EXPECT_EQ(packed.distance[0], 12);
   EXPECT_EQ(packed.distance[1], 100);
@@ -58,7 +57,7 @@ TEST(PagePoints, a_region_has_the_root_mean_square_of_its_own_points) {
   const TriangleMesh model = two_squares();
   const std::vector<ThinPoint> points = {
       {{0.5, 0.5, 0.003}, 1}, {{0.6, 0.5, -0.004}, 1}, {{0.5, 0.5, 1.0}, 1}};
-  const std::vector<float> rms = region_distances(points, model, 2);
+  const std::vector<float> rms = region_distances(nearest_of_model(points, model), model, 2);
   EXPECT_NEAR(rms[0], std::sqrt((9e-6 + 16e-6) / 2), 1e-6);
   EXPECT_TRUE(std::isnan(rms[1]));
 }
