@@ -36,7 +36,7 @@ help:
 	'make edit-lines SCAN=…        copy the lines to work/office/edits/wall_lines.geojson, to be edited' \
 	'make layers SCAN=…            for QGIS: where points are in each slice, beside the lines (edit-lines does so too)' \
 	'make diff-lines | drop-edit   what the edit changes | move it aside' \
-	'make compare A=work/x B=work/y  two runs side by side: parameters, lines, rooms, models; a page and JSON' \
+	'make compare A=… B=…          two work folders side by side: parameters, lines, rooms, models; a page and JSON' \
 	'make report | evaluate TRUTH=truth.off | bench | tidy | format' \
 	'make accuracy                 scores of scenes with known truth, in one table; ONLY="virtual uniform_house_*" some of' \
 	'                              them, BASE=old.json what changed since, OUT=file the JSON (work/accuracy/accuracy.json)' \

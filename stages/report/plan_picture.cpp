@@ -24,14 +24,14 @@ Svg plan_of(const CellComplex& complex) {
 }
 
 void fill_cells(Svg& svg, const CellComplex& complex, std::size_t layer,
-                const std::function<CellLook(std::size_t cell)>& look) {
+                const std::function<CellLook(std::size_t face, std::size_t cell)>& look) {
   std::vector<Vec2> corners;
   for (std::size_t f = 0; f < complex.faces(); ++f) {
     corners.clear();
     for (auto i = complex.face_offset[f]; i < complex.face_offset[f + 1]; ++i) {
       corners.push_back(complex.vertices[complex.face_vertex[i]]);
     }
-    const CellLook cell = look(complex.cell(f, layer));
+    const CellLook cell = look(f, complex.cell(f, layer));
     svg.polygon(corners, cell.fill, 1, cell.title);
   }
 }

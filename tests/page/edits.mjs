@@ -175,6 +175,18 @@ export async function editsLines(page, scan, work, name) {
     assert.ok(turn < 1e-9, `turned by ${turn}`);
   });
 
+  await step("an end of it is dragged, the other one stays; undone", async () => {
+    const scale = await page.evaluate(() => window.roomcut.plan.view.viewport.scale);
+    const release = await drag(page, drawn.b, [40, 25]);
+    await release();
+    const { a, b } = (await document_(page)).at(-1);
+    assert.deepEqual(a, drawn.a);
+    assert.ok(Math.abs(b[0] - drawn.b[0] - 40 / scale) < 1 / scale, `${b[0] - drawn.b[0]} m`);
+    assert.ok(Math.abs(b[1] - drawn.b[1] + 25 / scale) < 1 / scale, `${b[1] - drawn.b[1]} m`);
+    await page.keyboard.press("Control+z");
+    assert.deepEqual((await document_(page)).at(-1).b, drawn.b);
+  });
+
   await step("lines are deleted and locked with the keyboard, and undone", async () => {
     await page.focus(kPlan);
     await page.evaluate((key) => window.roomcut.edit.tool.select(key), last);

@@ -208,6 +208,7 @@ inputs = d["provenance"]["inputs"]
 (inputs["labels"] if isinstance(inputs, dict) else [i for i in inputs if i["name"] == "labels"][0])["payload_sha256"] = "0" * 64'
 flaw 40_accept_lines/wall_lines.geojson A02 'features.0.properties.*support_m' change "$work/40_accept_lines/wall_lines.geojson" \
   'd["features"][0]["properties"]["support_m"] = -1'
+flaw 95_find_openings/openings.geojson A02 '' change "$work/95_find_openings/openings.geojson" 'd["roomcut"]["frame"]["origin"][0] += 1'
 flaw model.ply A05 'is not the file that its stage wrote' python3 -c '
 import sys
 content = bytearray(open(sys.argv[1], "rb").read())

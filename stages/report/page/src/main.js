@@ -21,6 +21,11 @@ function workName() {
   return parts[parts.length - 2] ?? "";
 }
 
+function showName(name) {
+  byId("work").textContent = name;
+  document.title = `${name} – roomcut report`;
+}
+
 /** Why a face of the model came out so: beside the 3D view, with a way to the plan. */
 function showFace(run, plan, cell, face) {
   const host = byId("model-why");
@@ -58,8 +63,6 @@ async function startEditing(run, plan) {
 async function start() {
   startTabs();
   const run = await loadRun();
-  byId("work").textContent = workName();
-  document.title = `${workName()} – roomcut report`;
   showHistogram(run);
   showRooms(run);
   showStages(run);
@@ -67,6 +70,7 @@ async function start() {
   const scene = showModelPanel(run, (cell, face) => showFace(run, plan, cell, face));
   showFace(run, plan, null, null);
   const edit = plan.view ? await startEditing(run, plan) : null;
+  showName(edit?.server?.status.work ?? workName());
   const said = edit ? await findPlace(plan) : null;
   if (said) {
     edit.show(true);

@@ -108,14 +108,14 @@ export class EditPanel {
     const { tool } = this;
     const fit = tool.fit();
     const changes = this.document.changes().length;
-    const words = [changes === 0 ? "nothing changed" : `${changes} change${changes > 1 ? "s" : ""}${this.document.isSaved ? ", saved" : ""}`];
     if (tool.adding) {
-      words.unshift("drag from one end to the other");
-    } else if (fit) {
-      const name = tool.selected ?? "new line";
-      words.unshift(fit.count > 0 ? `${name}: ${fit.count} cells of points within 3 cm, ${number(1e3 * fit.mean, 1)} mm off on average` : `${name}: no points within 3 cm in this slice`);
+      return "drag from one end to the other";
     }
-    return words.join(" · ");
+    if (fit) {
+      const name = tool.selected ?? "new line";
+      return `${name}: ${fit.count > 0 ? `${fit.count} cells within 3 cm, ${number(1e3 * fit.mean, 1)} mm off` : "no points within 3 cm here"}`;
+    }
+    return changes === 0 ? "nothing changed" : `${changes} change${changes > 1 ? "s" : ""}${this.document.isSaved ? ", saved" : ""}`;
   }
 
   /** What differs from the lines that the editing began from, beside the plan. */
