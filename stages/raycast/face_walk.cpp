@@ -66,15 +66,17 @@ void FaceWalk::follow(const Ray& ray, std::vector<Crossing>& crossings, double l
   for (std::size_t step = 0; step < edges + complex_.levels.size(); ++step) {
     double wall_at = kNever;
     const Side* exit = nullptr;
-    const Side* const end = sides_.data() + complex_.face_offset[face + 1];
-    for (const Side* side = sides_.data() + complex_.face_offset[face]; side != end; ++side) {
-      // Which sides a ray faces nobody can predict: a division too many costs less than a wrong guess.
-      const double speed = side->nx * dx + side->ny * dy;
-      const double at = (side->d - side->nx * ray.origin.x() - side->ny * ray.origin.y()) / speed;
-      const bool faced = (speed > 1e-12) & (side->edge != came_by);
-      const bool nearer = faced & (at < wall_at);
-      wall_at = nearer ? at : wall_at;
-      exit = nearer ? side : exit;
+    for (std::int64_t i = complex_.face_offset[face]; i < complex_.face_offset[face + 1]; ++i) {
+      const Side& side = sides_[static_cast<std::size_t>(i)];
+      const double speed = side.nx * dx + side.ny * dy;
+      if (speed <= 1e-12 || side.edge == came_by) {
+        continue;
+      }
+      const double at = (side.d - side.nx * ray.origin.x() - side.ny * ray.origin.y()) / speed;
+      if (at < wall_at) {
+        wall_at = at;
+        exit = &side;
+      }
     }
     double level_at = kNever;
     if (dz > 1e-12) {
