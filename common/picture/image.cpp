@@ -4,7 +4,6 @@
 #include <png.h>
 
 #include <algorithm>
-#include <cstring>
 #include <stdexcept>
 #include <string_view>
 
@@ -12,13 +11,15 @@
 
 namespace roomcut {
 
+static_assert(sizeof(Colour) == 3, "pixels are three bytes, one after the other");
+
 Image::Image(int width, int height, Colour background)
-    : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * height) {
-  if (background.r == background.g &&
-      background.g == background.b) {  // white: a fill of bytes is ten times as fast
-    std::memset(static_cast<void*>(pixels_.data()), background.r, pixels_.size() * sizeof(Colour));
-  } else {
-    std::fill(pixels_.begin(), pixels_.end(), background);
+    : width_(width),
+      height_(height),
+      bytes_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(Colour),
+             background.r) {
+  if (background.g != background.r || background.b != background.r) {
+    std::fill_n(row(0), pixels().size(), background);
   }
 }
 
@@ -47,7 +48,6 @@ std::vector<std::uint8_t> encode_png(const Image& image) {
   png.format = PNG_FORMAT_RGB;
   // The fast filters and level: a picture takes a third of the time and a tenth more room.
   png.flags = PNG_IMAGE_FLAG_FAST;
-  static_assert(sizeof(Colour) == 3, "pixels are handed to libpng as they lie");
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
   std::vector<std::uint8_t> bytes(size);
   if (png_image_write_to_memory(&png, bytes.data(), &size, 0, image.pixels().data(), 0, nullptr) == 0) {

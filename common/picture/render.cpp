@@ -125,9 +125,11 @@ class DepthBuffer {
   void fill_row(int first, int last, int y, double z, double z_per_x, Colour colour) {
     float* const depth = depth_.data() + static_cast<std::size_t>(y) * image_.width();
     Colour* const pixels = image_.row(y);
-    for (int x = first; x <= last; ++x, z += z_per_x) {
-      if (static_cast<float>(z) > depth[x]) {
-        depth[x] = static_cast<float>(z);
+    for (int x = first; x <= last; ++x) {
+      const auto here =
+          static_cast<float>(z + z_per_x * (x - first));  // no sum: that would wait for the last one
+      if (here > depth[x]) {
+        depth[x] = here;
         pixels[x] = colour;
       }
     }
