@@ -24,6 +24,7 @@ class Image {
       row(y)[x] = colour;
     }
   }
+  void fill(Colour colour);
   Colour get(int x, int y) const { return row(y)[x]; }
   Colour* row(int y) {
     return reinterpret_cast<Colour*>(bytes_.data()) + static_cast<std::size_t>(y) * width_;
@@ -41,8 +42,9 @@ class Image {
       bytes_;  ///< red, green, blue of each pixel: filled ten times as fast as colours are
 };
 
-/// Half the size: each pixel the mean of 2 × 2. Drawing at double size and halving smooths edges.
-Image halved(const Image& image);
+/// Two rows of 2 width pixels become one of half the size: each pixel is the mean of 2 × 2. Drawing at double
+/// size and halving smooths edges.
+void halve_rows(const Colour* upper, const Colour* lower, int width, Colour* out);
 
 /// The bytes of a PNG file (libpng, no time stamp: equal pictures give equal bytes).
 std::vector<std::uint8_t> encode_png(const Image& image);
