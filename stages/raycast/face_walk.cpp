@@ -50,7 +50,7 @@ FaceWalk::FaceWalk(const CellComplex& complex, const FaceWeights& weights)
   }
 }
 
-void FaceWalk::follow(const Ray& ray, std::vector<Crossing>& crossings, double limit_m) const {
+void FaceWalk::follow(const Ray& ray, std::vector<Crossing>& crossings, double limit_m, double opaque) const {
   crossings.clear();
   const std::size_t edges = complex_.edges.size();
   const std::size_t faces = complex_.faces();
@@ -61,6 +61,7 @@ void FaceWalk::follow(const Ray& ray, std::vector<Crossing>& crossings, double l
   std::size_t face = ray.face;
   std::size_t layer = ray.layer;
   double now = 0;
+  double left = 1;  // of the ray
   std::int32_t came_by = -1;
   // Every step crosses an edge or a level; rounding at a sliver may not send a ray around for ever.
   for (std::size_t step = 0; step < edges + complex_.levels.size(); ++step) {
@@ -112,6 +113,10 @@ void FaceWalk::follow(const Ray& ray, std::vector<Crossing>& crossings, double l
         return;
       }
       layer = dz > 0 ? layer + 1 : layer - 1;
+    }
+    left *= 1 - crossings.back().front - crossings.back().back;
+    if (opaque > 0 && left < opaque) {
+      return;
     }
   }
 }
