@@ -173,9 +173,10 @@ void SurfaceFinder::survey(const TileGrid& grid, const UnitScale& scale, int lev
   for_own_columns(voxels, [&](int ix, int iy, std::uint32_t first, std::uint32_t last) {
     Neighbourhood around(voxels, ix, iy);
     for (std::uint32_t voxel = first; voxel < last; ++voxel) {
-      around.visit(voxels.z[voxel],
-                   [&](std::uint32_t other, int) { counts[voxel] += voxels.moments[other].points(); });
-      if (counts[voxel] < kParentHas && parent_is_full(voxel)) {
+      std::uint32_t count = 0;
+      around.visit(voxels.z[voxel], [&](std::uint32_t other, int) { count += voxels.points[other]; });
+      counts[voxel] = count;
+      if (count < kParentHas && parent_is_full(voxel)) {
         const NeighbourSum sum = accumulate(voxels, voxels.z[voxel], around);
         cache[voxel] = {surface_of(sum, grid.centre(level, ix, iy, voxels.z[voxel]),
                                    scale.voxel_edge_m() * (1 << level), scale.unit_m(), params_),

@@ -11,7 +11,6 @@ namespace {
 
 constexpr std::uint16_t kDropped = 0xffff;
 constexpr int kColumns = kTileVoxels + 2 * kHaloVoxels;
-constexpr std::size_t kHeights = std::size_t{kWindowLayers} * kTileVoxels;
 constexpr std::uint64_t kAllLayers = ~std::uint64_t{0};
 
 /// -1, 0, 1: below, inside or above the tile, for units from the halo's corner.
@@ -42,7 +41,6 @@ void TileGrid::find_keys(const TilePoints& points, const TilePlace& place, const
       std::all_of(place.layers.begin(), place.layers.end(), [](auto l) { return l == kAllLayers; });
   column_.resize(points.size());
   height_.resize(points.size());
-  heights_begin_.assign(kHeights + 1, 0);
   columns_begin_.assign(std::size_t{kColumns} * kColumns + 1, 0);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::int32_t rx = scale.units(points.x[i]) - corner_[0];
@@ -59,26 +57,47 @@ void TileGrid::find_keys(const TilePoints& points, const TilePlace& place, const
       }
     }
     ++columns_begin_[column_[i]];
-    ++heights_begin_[height_[i]];
   }
   to_begins(columns_begin_);
-  to_begins(heights_begin_);
 }
 
-/// Two counting sorts, by height and then stably by column.
+/// A counting sort by column, and then in each column, within the cache, by height: one copy of the tile.
+/// Afterwards columns_begin_ holds the ends.
 void TileGrid::sort_points(const TilePoints& points) {
-  const std::size_t kept = columns_begin_.back();
-  by_height_.resize(kept);
-  sorted_.resize(kept);
+  sorted_.resize(columns_begin_.back());
   const bool hints = !points.hint.empty();
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (column_[i] != kDropped) {
-      by_height_[heights_begin_[height_[i]]++] = {points.x[i], points.y[i], points.z[i],
-                                                  hints ? points.hint[i] : std::uint16_t{0}, column_[i]};
+      sorted_[columns_begin_[column_[i]]++] = {points.x[i], points.y[i], points.z[i],
+                                               hints ? points.hint[i] : std::uint16_t{0}, height_[i]};
     }
   }
-  for (const Point& point : by_height_) {
-    sorted_[columns_begin_[point.column]++] = point;
+  std::size_t first = 0;
+  for (std::size_t column = 0; column + 1 < columns_begin_.size(); ++column) {
+    const std::size_t last = columns_begin_[column];
+    sort_column(first, last);
+    first = last;
+  }
+}
+
+/// Stable.
+void TileGrid::sort_column(std::size_t first, std::size_t last) {
+  const auto begin = sorted_.begin() + static_cast<std::ptrdiff_t>(first);
+  const auto end = sorted_.begin() + static_cast<std::ptrdiff_t>(last);
+  const auto lower = [](const Point& a, const Point& b) { return a.height < b.height; };
+  if (std::is_sorted(begin, end, lower)) {
+    return;  // a floor alone
+  }
+  const auto [lowest, highest] = std::minmax_element(begin, end, lower);
+  const std::uint16_t base = lowest->height;
+  heights_begin_.assign(static_cast<std::size_t>(highest->height - base) + 1, 0);
+  column_points_.assign(begin, end);
+  for (const Point& point : column_points_) {
+    ++heights_begin_[static_cast<std::size_t>(point.height - base)];
+  }
+  to_begins(heights_begin_);
+  for (const Point& point : column_points_) {
+    sorted_[first + heights_begin_[static_cast<std::size_t>(point.height - base)]++] = point;
   }
 }
 
@@ -92,24 +111,21 @@ void TileGrid::sum_moments(const UnitScale& scale) {
   const auto relative = [&](float metres, std::size_t axis) {
     return static_cast<std::uint32_t>(scale.units(metres) - corner_[axis]);
   };
-  for (std::size_t i = 0; i < sorted_.size();) {
-    const std::uint32_t column = sorted_[i].column;
-    const std::uint32_t height = relative(sorted_[i].z, 2) >> kVoxelBits;
-    level.begin.resize(std::max<std::size_t>(level.begin.size(), column + 1),
-                       static_cast<std::uint32_t>(level.size()));
-    first_point_.push_back(static_cast<std::uint32_t>(i));
-    Moments sum;
-    for (; i < sorted_.size() && sorted_[i].column == column; ++i) {
-      const std::uint32_t rz = relative(sorted_[i].z, 2);
-      if (rz >> kVoxelBits != height) {
-        break;
+  std::size_t i = 0;
+  for (std::size_t column = 0; column + 1 < columns_begin_.size(); ++column) {
+    level.begin.push_back(static_cast<std::uint32_t>(level.size()));
+    for (const std::size_t end = columns_begin_[column]; i < end;) {
+      const std::uint16_t height = sorted_[i].height;
+      first_point_.push_back(static_cast<std::uint32_t>(i));
+      Moments sum;
+      for (; i < end && sorted_[i].height == height; ++i) {
+        sum.add_point(relative(sorted_[i].x, 0), relative(sorted_[i].y, 1), relative(sorted_[i].z, 2));
       }
-      sum.add_point(relative(sorted_[i].x, 0), relative(sorted_[i].y, 1), rz);
+      level.z.push_back(height);
+      level.moments.push_back(sum);
     }
-    level.z.push_back(static_cast<std::uint16_t>(height));
-    level.moments.push_back(sum);
   }
-  level.begin.resize(std::size_t{kColumns} * kColumns + 1, static_cast<std::uint32_t>(level.size()));
+  level.begin.push_back(static_cast<std::uint32_t>(level.size()));
   first_point_.push_back(static_cast<std::uint32_t>(sorted_.size()));
 }
 

@@ -24,7 +24,7 @@ class TileGrid {
   struct Point {
     float x, y, z;
     std::uint16_t hint;
-    std::uint16_t column;
+    std::uint16_t height;  ///< of its voxel above the tile's base
   };
 
   /// Sorts by (column, height); points of one voxel keep file order. Time linear in the points.
@@ -41,13 +41,15 @@ class TileGrid {
  private:
   void find_keys(const TilePoints& points, const TilePlace& place, const UnitScale& scale);
   void sort_points(const TilePoints& points);
+  void sort_column(std::size_t first, std::size_t last);
   void sum_moments(const UnitScale& scale);
 
   std::array<std::int32_t, 3>
       corner_{};  ///< of the halo, local units; the base in height is a coarsest voxel's
   std::vector<std::uint16_t> column_, height_;  ///< per input point; column kDropped = not kept
-  std::vector<std::uint32_t> heights_begin_, columns_begin_;
-  std::vector<Point> by_height_, sorted_;
+  std::vector<std::uint32_t> columns_begin_;
+  std::vector<std::uint32_t> heights_begin_;  ///< of one column
+  std::vector<Point> column_points_, sorted_;
   std::vector<std::uint32_t> first_point_;
   std::array<VoxelLevel, fixed_grid::kLevels> levels_;
 };

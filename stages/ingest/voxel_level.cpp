@@ -11,6 +11,7 @@ void VoxelLevel::clear(int at_level) {
   begin.clear();
   z.clear();
   moments.clear();
+  points.clear();
   parent.clear();
 }
 
@@ -42,6 +43,7 @@ void join_columns(VoxelLevel& fine, VoxelLevel& coarse, std::array<std::uint32_t
       }
     }
     coarse.moments.push_back(sum.total());
+    coarse.points.push_back(coarse.moments.back().points());
   }
 }
 

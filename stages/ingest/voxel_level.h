@@ -18,6 +18,8 @@ struct VoxelLevel {
   std::vector<std::uint32_t> begin;  ///< first voxel of each column; size columns^2 + 1
   std::vector<std::uint16_t> z;      ///< height of a voxel above the tile's base, in voxels of this level
   std::vector<Moments> moments;
+  std::vector<std::uint32_t> points;  ///< of each voxel, as its moments say too, but sixteen to a cache line;
+                                      ///< empty on the finest level
   std::vector<std::uint32_t>
       parent;  ///< the voxel of the next level that contains this one; empty on the last
 

@@ -15,7 +15,7 @@ constexpr float kPermanent = 0.5F;  // paper: a face with omega above 1/2 is per
 constexpr int kColumns = 8;         // looking up and down
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 constexpr double kThickness = 0.5;  // [m] of walls and slabs: how far behind a surface solid is likely
-constexpr double kRising = 0.2;     // sine of the elevation from which a ray looks at the sky
+constexpr double kRising = 0.2;     // sine of the elevation from which a ray looks at the sky or the ground
 constexpr double kPlate = 0.3;      // [m] thickness of a plate that is taken for a wall or slab …
 constexpr double kWide = 0.6;       // [m] … and of what is none any more
 constexpr double kOpenings = 0.2;   // share of a room's level rays that windows and doors let out
@@ -106,22 +106,35 @@ FirstHit first_hit(const std::vector<Crossing>& crossings) {
 
 namespace {
 
+void count_crossings(const std::vector<Crossing>& crossings, CellEvidence& evidence) {
+  bool odd = false;
+  for (const Crossing& c : crossings) {
+    odd = odd != (c.omega > kPermanent);
+    evidence.winding += c.front - c.back;
+  }
+  evidence.kappa += odd ? 1 : 0;
+}
+
+/// Crossings are counted to the end of a ray. A flat one only ends beyond the building, perhaps hundreds of
+/// metres away: unless parity is what counts, it is followed as far as anything of it is left.
 void look_around(const CellComplex& complex, const FaceWalk& walk, std::size_t face, std::size_t layer,
-                 int rays, std::vector<Crossing>& scratch, CellEvidence& evidence) {
+                 const RayRules& rules, std::vector<Crossing>& scratch, CellEvidence& evidence) {
+  const int rays = rules.rays;
   int rising = 0;
   int level = 0;
+  int counted = 0;
   for (int r = 0; r < rays; ++r) {
     const RayStart start = random_ray(complex, walk, face, layer, static_cast<std::size_t>(r));
-    walk.follow({start.origin, start.direction, face, layer}, scratch);
-    bool odd = false;
-    for (const Crossing& c : scratch) {
-      odd = odd != (c.omega > kPermanent);
-      evidence.winding += c.front - c.back;
+    const bool is_level = start.direction.z() == 0;
+    const bool to_the_end = rules.parity || std::abs(start.direction.z()) > kRising;
+    walk.follow({start.origin, start.direction, face, layer}, scratch, kNoLimit, to_the_end ? 0 : kOpaque);
+    if (to_the_end) {
+      ++counted;
+      count_crossings(scratch, evidence);
     }
-    evidence.kappa += odd ? 1 : 0;
     const FirstHit hit = first_hit(scratch);
     evidence.around.add(hit, 1.0 / rays);
-    if (start.direction.z() == 0) {
+    if (is_level) {
       ++level;
       evidence.level.add(hit, 1);
     }
@@ -133,9 +146,9 @@ void look_around(const CellComplex& complex, const FaceWalk& walk, std::size_t f
   FirstHit mean;
   mean.add(evidence.level, 1.0 / std::max(1, level));
   evidence.level = mean;
-  evidence.kappa /= rays;
+  evidence.kappa /= std::max(1, counted);
   evidence.sky /= std::max(1, rising);
-  evidence.winding /= rays;
+  evidence.winding /= std::max(1, counted);
 }
 
 void look_up_and_down(const CellComplex& complex, const FaceWalk& walk, std::size_t face, std::size_t layer,
@@ -145,7 +158,7 @@ void look_up_and_down(const CellComplex& complex, const FaceWalk& walk, std::siz
     // Spread evenly over the face (golden ratio).
     const Vec2 p = walk.point_in(face, (i + 0.5) / kColumns, std::fmod(0.5 + i * std::numbers::phi, 1.0));
     for (const double up : {-1.0, 1.0}) {
-      walk.follow({{p.x(), p.y(), z}, {0, 0, up}, face, layer}, scratch);
+      walk.follow({{p.x(), p.y(), z}, {0, 0, up}, face, layer}, scratch, kNoLimit, kOpaque);
       (up > 0 ? evidence.up : evidence.down).add(first_hit(scratch), 1.0 / kColumns);
     }
   }
@@ -154,11 +167,12 @@ void look_up_and_down(const CellComplex& complex, const FaceWalk& walk, std::siz
 }  // namespace
 
 CellEvidence gather_evidence(const CellComplex& complex, const FaceWeights& weights, const FaceWalk& walk,
-                             std::size_t face, std::size_t layer, int rays, std::vector<Crossing>& scratch) {
+                             std::size_t face, std::size_t layer, const RayRules& rules,
+                             std::vector<Crossing>& scratch) {
   CellEvidence evidence;
   evidence.volume_m3 = complex.area(face) * complex.height(layer);
   add_own_faces(complex, weights, face, layer, evidence);
-  look_around(complex, walk, face, layer, rays, scratch, evidence);
+  look_around(complex, walk, face, layer, rules, scratch, evidence);
   look_up_and_down(complex, walk, face, layer, scratch, evidence);
   return evidence;
 }

@@ -19,8 +19,8 @@ struct FirstHit {
 
 /// What speaks for a cell being empty or solid. Each measure by itself; combined in raycast.cpp.
 struct CellEvidence {
-  double kappa = 0;    ///< share of rays with an odd number of permanent faces (omega > 1/2)
-  double winding = 0;  ///< mean of the signed crossings, fronts - backs
+  double kappa = 0;    ///< share of counted rays with an odd number of permanent faces (omega > 1/2)
+  double winding = 0;  ///< mean of their signed crossings, fronts - backs
   FirstHit around;     ///< mean over the rays
   FirstHit level;      ///< mean over the level rays
   FirstHit up, down;   ///< mean over columns straight up and down
@@ -44,9 +44,15 @@ struct CellEvidence {
 /// First hits along a sorted list of crossings.
 FirstHit first_hit(const std::vector<Crossing>& crossings);
 
-/// Casts `rays` rays from random points of the cell. Pure function of its arguments: the random numbers are
+struct RayRules {
+  int rays = 64;        ///< per cell, every other one level
+  bool parity = false;  ///< crossings are counted along all rays, not only along steep ones
+};
+
+/// Casts rays from random points of the cell. Pure function of its arguments: the random numbers are
 /// counted by cell and ray. `scratch` is reused storage.
 CellEvidence gather_evidence(const CellComplex& complex, const FaceWeights& weights, const FaceWalk& walk,
-                             std::size_t face, std::size_t layer, int rays, std::vector<Crossing>& scratch);
+                             std::size_t face, std::size_t layer, const RayRules& rules,
+                             std::vector<Crossing>& scratch);
 
 }  // namespace roomcut

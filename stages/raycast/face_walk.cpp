@@ -50,7 +50,7 @@ FaceWalk::FaceWalk(const CellComplex& complex, const FaceWeights& weights)
   }
 }
 
-void FaceWalk::follow(const Ray& ray, std::vector<Crossing>& crossings, double limit_m) const {
+void FaceWalk::follow(const Ray& ray, std::vector<Crossing>& crossings, double limit_m, double opaque) const {
   crossings.clear();
   const std::size_t edges = complex_.edges.size();
   const std::size_t faces = complex_.faces();
@@ -61,20 +61,23 @@ void FaceWalk::follow(const Ray& ray, std::vector<Crossing>& crossings, double l
   std::size_t face = ray.face;
   std::size_t layer = ray.layer;
   double now = 0;
+  double left = 1;  // of the ray
   std::int32_t came_by = -1;
   // Every step crosses an edge or a level; rounding at a sliver may not send a ray around for ever.
   for (std::size_t step = 0; step < edges + complex_.levels.size(); ++step) {
     double wall_at = kNever;
     const Side* exit = nullptr;
-    const Side* const end = sides_.data() + complex_.face_offset[face + 1];
-    for (const Side* side = sides_.data() + complex_.face_offset[face]; side != end; ++side) {
-      // Which sides a ray faces nobody can predict: a division too many costs less than a wrong guess.
-      const double speed = side->nx * dx + side->ny * dy;
-      const double at = (side->d - side->nx * ray.origin.x() - side->ny * ray.origin.y()) / speed;
-      const bool faced = (speed > 1e-12) & (side->edge != came_by);
-      const bool nearer = faced & (at < wall_at);
-      wall_at = nearer ? at : wall_at;
-      exit = nearer ? side : exit;
+    for (std::int64_t i = complex_.face_offset[face]; i < complex_.face_offset[face + 1]; ++i) {
+      const Side& side = sides_[static_cast<std::size_t>(i)];
+      const double speed = side.nx * dx + side.ny * dy;
+      if (speed <= 1e-12 || side.edge == came_by) {
+        continue;
+      }
+      const double at = (side.d - side.nx * ray.origin.x() - side.ny * ray.origin.y()) / speed;
+      if (at < wall_at) {
+        wall_at = at;
+        exit = &side;
+      }
     }
     double level_at = kNever;
     if (dz > 1e-12) {
@@ -110,6 +113,10 @@ void FaceWalk::follow(const Ray& ray, std::vector<Crossing>& crossings, double l
         return;
       }
       layer = dz > 0 ? layer + 1 : layer - 1;
+    }
+    left *= 1 - crossings.back().front - crossings.back().back;
+    if (opaque > 0 && left < opaque) {
+      return;
     }
   }
 }

@@ -36,10 +36,10 @@ class FaceWalk {
   /// Both must outlive the walk.
   FaceWalk(const CellComplex& complex, const FaceWeights& weights);
 
-  /// All faces that the ray crosses within `limit_m` [m] until it leaves the bounding box, nearest first;
-  /// `crossings` is overwritten.
+  /// All faces that the ray crosses within `limit_m` [m] until it leaves the bounding box or less than
+  /// `opaque` of it is left, nearest first; `crossings` is overwritten.
   void follow(const Ray& ray, std::vector<Crossing>& crossings,
-              double limit_m = std::numeric_limits<double>::infinity()) const;
+              double limit_m = std::numeric_limits<double>::infinity(), double opaque = 0) const;
 
   /// A point of the face, uniform by area, from two numbers in [0, 1).
   Vec2 point_in(std::size_t face, double u, double v) const;

@@ -80,7 +80,7 @@ DataTerms cast_rays(const CellComplex& complex, const FaceWeights& weights, cons
         std::vector<Crossing> scratch;
         for (std::size_t c = range.begin(); c < range.end(); ++c) {
           CellEvidence e =
-              gather_evidence(complex, weights, walk, c % faces, c / faces, params.rays, scratch);
+              gather_evidence(complex, weights, walk, c % faces, c / faces, {params.rays, parity}, scratch);
           e.carved = carved[c];
           store(e, c, terms);
           const double beta = parity ? sigmoid(10 * (e.kappa - 0.5)) : sigmoid(empty_log_odds(e));

@@ -159,7 +159,7 @@ def run(arguments, place):
     sizes = [float(size) for size in arguments.sizes.split(",")]
     result = {"processors": len(os.sched_getaffinity(0)), "load": os.getloadavg()}
     if "dense" in series or "edit" in series:
-        result["dense"] = [whole_run(arguments, place, int(size * 1e6), 1) for size in sizes if size <= 25]
+        result["dense"] = [whole_run(arguments, place, int(size * 1e6), 1) for size in sizes]
     if "edit" in series:
         result["edit"] = edit_run(arguments, place)
     if "grown" in series:
