@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "common/cli/run_stage.h"
+#include "stages/report/params.h"
+#include "stages/report/pictures.h"
+
+namespace roomcut {
+
+/// How the result of one run of the pipeline is drawn.
+struct StageDrawing {
+  std::string stage;
+  std::vector<std::string> needs;  ///< inputs without which there is nothing to draw
+  bool overview;                   ///< whether `make run` draws it
+  std::function<void(const StageRun&, const ReportParams&, std::vector<Picture>&)> draw;
+};
+
+/// Of every run that has a result, in the order of the pipeline.
+std::vector<StageDrawing> stage_drawings();
+
+}  // namespace roomcut
