@@ -18,7 +18,7 @@ std::vector<Vec2> StoreyLayer::corners(std::size_t face) const {
   const CellComplex& complex = run.plan->complex;
   std::vector<Vec2> out;
   for (auto i = complex.face_offset[face]; i < complex.face_offset[face + 1]; ++i) {
-    out.push_back(complex.vertices[complex.face_vertex[i]] + shift);
+    out.emplace_back(complex.vertices[complex.face_vertex[i]] + shift);
   }
   return out;
 }

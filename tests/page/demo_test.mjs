@@ -3,7 +3,7 @@
 import { join } from "node:path";
 import { make, need, openBrowser, openReport, run, source, build, temporaryFolder } from "./browser.mjs";
 import { editsLines, movesWall } from "./edits.mjs";
-import { agreesWithTheRun, looksAtModel, looksAtPlan, looksAtTables, nothingWrong, printsDecently, worksWithTheKeyboard } from "./looks.mjs";
+import { agreesWithTheRun, asksAboutAnOpening, looksAtModel, looksAtPlan, looksAtTables, nothingWrong, printsDecently, worksWithTheKeyboard } from "./looks.mjs";
 
 need();
 const folder = temporaryFolder();
@@ -17,6 +17,7 @@ await printsDecently(page);
 await worksWithTheKeyboard(page);
 await looksAtModel(page, "demo");
 await looksAtPlan(page, "demo");
+await asksAboutAnOpening(page, work);
 await looksAtTables(page, "demo");
 await agreesWithTheRun(page, work);
 await movesWall(page, scan, work, "demo", 0.25);

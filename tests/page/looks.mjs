@@ -176,6 +176,24 @@ export async function looksAtPlan(page, name) {
   });
 }
 
+/** A door of the demo: which rooms it joins, and what proves it. */
+export async function asksAboutAnOpening(page, work) {
+  await step("a click on an opening says what proves it and which rooms it joins", async () => {
+    const [first] = json(join(work, "summary.json")).openings;
+    const middle = await page.evaluate(async (id) => {
+      const { plan } = window.roomcut;
+      const { a, b, sill, head } = plan.state.openings.find((opening) => opening.id === id);
+      await plan.choose(plan.slices.find(({ low, high }) => low < (sill + head) / 2 && (sill + head) / 2 < high));
+      return [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
+    }, first.opening_id);
+    await page.mouse.click(...(await windowOf(page, middle)));
+    const why = await page.textContent("#plan-why");
+    assert.ok(why.includes(`Opening ${first.opening_id}`) && why.includes(`joins room ${first.rooms[0]} and room ${first.rooms[1]}`), why);
+    assert.ok(why.includes(`${first.width_m.toFixed(2)} m wide, ${first.height_m.toFixed(2)} m high`), why);
+    await page.evaluate(() => window.roomcut.plan.choose(window.roomcut.plan.bestSlice()));
+  });
+}
+
 /** The printer gets every part, also those that were never on the screen: call it before the plan is opened. */
 export async function printsDecently(page) {
   await step("it prints: every part on a page of its own, the model and the plan drawn", async () => {

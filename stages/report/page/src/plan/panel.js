@@ -4,10 +4,10 @@
 import { byId, make } from "../dom.js";
 import { loadSlice, openingsOf, slicesOf, wallLines } from "../data/run.js";
 import { drawLegend } from "../model/colourings.js";
-import { selection } from "../model/panel.js";
 import { cellFills } from "./fills.js";
 import { distanceToSegment, nearestLine, nearestWallFace } from "./pick.js";
 import { rasterOf } from "./rasters.js";
+import { buildTools } from "./tools.js";
 import { PlanView } from "./view.js";
 import { whyCell, whyLine, whyOpening, whyWallFace } from "./why.js";
 
@@ -37,7 +37,7 @@ export class PlanPanel {
     };
     this.view = new PlanView(byId("plan-canvas"), run, this.state);
     this.legend = byId("plan-legend");
-    this.buildTools();
+    buildTools(this);
     this.listen();
     this.select(null);
     this.choose(this.bestSlice());
@@ -54,56 +54,6 @@ export class PlanPanel {
       return volume;
     };
     return this.slices.reduce((best, slice) => (filled(slice) > filled(best) ? slice : best), this.slices[0]);
-  }
-
-  buildTools() {
-    const check = (name, key) =>
-      make(
-        "label",
-        {},
-        make("input", {
-          type: "checkbox",
-          id: `plan-${key}`,
-          ...(this.state.show[key] ? { checked: true } : {}),
-          onchange: (event) => {
-            this.state.show[key] = event.target.checked;
-            this.view.redraw();
-          },
-        }),
-        name,
-      );
-    const evidence = [["occupancy", "occupancy"], ["walls and clutter", "walls"], ["none", null]];
-    this.sliceSelect = selection("plan-slice", this.slices.map(({ name }) => name), (i) => this.choose(this.slices[i]));
-    byId("plan-tools").append(
-      make(
-        "span",
-        { class: "group" },
-        make("label", {}, "Slice", this.sliceSelect),
-        make("button", { type: "button", text: "▲", "aria-label": "Slice above", id: "plan-up", onclick: () => this.step(1) }),
-        make("button", { type: "button", text: "▼", "aria-label": "Slice below", id: "plan-down", onclick: () => this.step(-1) }),
-      ),
-      make("label", {}, "Evidence", selection("plan-evidence", evidence.map(([name]) => name), (i) => {
-        this.state.evidence = evidence[i][1];
-        this.updateRaster();
-      })),
-      make("label", {}, "Cells", this.fillSelect()),
-      check("wall lines", "lines"),
-      check("refined lines", "refined"),
-      check("points", "points"),
-      check("openings", "openings"),
-      check("rooms", "rooms"),
-      make("button", { type: "button", text: "Fit", onclick: () => this.view.viewport.fit(this.view.viewport.box) }),
-    );
-  }
-
-  fillSelect() {
-    const select = selection("plan-fill", this.fills.map(({ name }) => name), (i) => {
-      this.state.fill = this.fills[i];
-      this.updateLegend();
-      this.view.redraw();
-    });
-    select.selectedIndex = this.fills.indexOf(this.state.fill);
-    return select;
   }
 
   async choose(slice) {

@@ -2,12 +2,11 @@
 // Draws the plan of one slice: evidence, cells, wall lines. What is drawn is decided by `state`; panel.js changes it.
 
 import { kOkabeIto } from "../colours.js";
+import { paintOpenings, paintRooms } from "./annotations.js";
 import { Viewport } from "./viewport.js";
 
 const kWallEdge = "#141414";
 const kThinEdge = "#b4b4b4";
-const kOpening = "#009e73";
-const kQuiet = "#3a444b";
 // Not the colour of what is selected or moved.
 const kLineColours = kOkabeIto.slice(0, 5);
 const kSelected = "#d55e00";
@@ -45,10 +44,10 @@ export class PlanView {
       this.paintLines(context, state.refined, true);
     }
     if (state.show.openings) {
-      this.paintOpenings(context);
+      paintOpenings(context, this);
     }
     if (state.show.rooms && this.run.storeys) {
-      this.paintRooms(context);
+      paintRooms(context, this);
     }
     if (this.run.complex && state.selected) {
       this.paintSelection(context);
@@ -134,52 +133,6 @@ export class PlanView {
     context.setLineDash(dash);
     context.stroke();
     context.setLineDash([]);
-  }
-
-  /** Openings that reach into the slice: the wall is open between the two jambs. */
-  paintOpenings(context) {
-    const { slice, selected } = this.state;
-    for (const { id, a, b, thickness, sill, head } of this.state.openings) {
-      if (sill < slice.high && head > slice.low) {
-        const colour = selected?.opening === id ? kSelected : kOpening;
-        const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
-        const across = [(-(b[1] - a[1]) / length) * (thickness / 2), ((b[0] - a[0]) / length) * (thickness / 2)];
-        const shifted = ([x, y], side) => [x + side * across[0], y + side * across[1]];
-        this.tracePolygon(context, [shifted(a, 1), shifted(b, 1), shifted(b, -1), shifted(a, -1)]);
-        context.fillStyle = "#ffffff";
-        context.fill();
-        context.strokeStyle = colour;
-        context.lineWidth = selected?.opening === id ? 3 : 2;
-        context.stroke();
-      }
-    }
-  }
-
-  /** Number and area of each room, in the middle of its largest cell of this layer. */
-  paintRooms(context) {
-    const { complex, storeys } = this.run;
-    const { layer } = this.state.slice;
-    const largest = new Map();
-    for (let f = 0; layer >= 0 && f < complex.faces; ++f) {
-      const room = storeys.room[complex.cell(f, layer)];
-      if (room >= 0 && !(complex.areas[f] <= (largest.has(room) ? complex.areas[largest.get(room)] : 0))) {
-        largest.set(room, f);
-      }
-    }
-    context.font = "12px system-ui, sans-serif";
-    context.textAlign = "center";
-    for (const [room, face] of largest) {
-      const corners = complex.corners(face);
-      const middle = [0, 1].map((axis) => corners.reduce((sum, corner) => sum + corner[axis], 0) / corners.length);
-      const [x, y] = this.viewport.toPixels(middle);
-      const words = `room ${room}: ${storeys.rooms[room].area.toFixed(1)} m²`;
-      context.fillStyle = "#ffffffc8";
-      const width = context.measureText(words).width + 8;
-      context.fillRect(x - width / 2, y - 10, width, 17);
-      context.fillStyle = kQuiet;
-      context.fillText(words, x, y + 3);
-    }
-    context.textAlign = "start";
   }
 
   paintCentroids(context, block) {
