@@ -11,7 +11,7 @@
 
 namespace roomcut {
 
-/// Reads a cloud.h5 tile by tile. Memory: one tile per thread.
+/// Reads a cloud.h5 tile by tile, or tiles by parts. Memory: one tile, or part, per thread.
 class CloudReader {
  public:
   /// Checks type, version and sizes, reads the header only. Errors: kArtefact… (common/artefact/h5.h).
@@ -25,8 +25,13 @@ class CloudReader {
   /// Reads tile `index` into `tile` (its vectors are resized, capacity is reused). Thread-safe.
   void read_tile(std::size_t index, CloudTile& tile) const;
 
-  /// Calls visit(index, tile) once per tile, in parallel on TBB, in no particular order; results must be
-  /// combined in an order-free way or by tile index. `done(points)` is called after each tile, for progress.
+  /// Points [first, first + points) of a tile. Likewise.
+  void read_part(std::size_t index, std::uint64_t first, std::uint64_t points, CloudTile& part) const;
+
+  /// Calls visit(index, points) for each tile, in parallel on TBB, in no particular order, and several times
+  /// for one with many points, each time with a part of it that fits into the processor's cache: so memory
+  /// does not grow with the density of a scan. Results must be combined in an order-free way. `done(points)`
+  /// is called after each call, for progress.
   void for_each_tile(const std::function<void(std::size_t, const CloudTile&)>& visit,
                      const std::function<void(std::uint64_t)>& done = {}) const;
 

@@ -32,6 +32,8 @@ struct CloudReader::State {
 
 namespace {
 
+constexpr std::uint64_t kPart = std::uint64_t{1} << 16;  ///< points: about a megabyte
+
 Vec3 read_corner(const H5Reader& file, const char* path) {
   const std::vector<double> corner = file.read<double>(path, {3});
   return {corner[0], corner[1], corner[2]};
@@ -105,9 +107,15 @@ const std::string& CloudReader::payload_sha256() const {
 }
 
 void CloudReader::read_tile(std::size_t index, CloudTile& tile) const {
+  const std::vector<std::uint64_t>& offset = state_->header.tile_offset;
+  read_part(index, 0, offset.at(index + 1) - offset.at(index), tile);
+}
+
+void CloudReader::read_part(std::size_t index, std::uint64_t first_in_tile, std::uint64_t count,
+                            CloudTile& tile) const {
   const State& state = *state_;
-  const std::uint64_t first = state.header.tile_offset.at(index);
-  const auto points = static_cast<std::size_t>(state.header.tile_offset.at(index + 1) - first);
+  const std::uint64_t first = state.header.tile_offset.at(index) + first_in_tile;
+  const auto points = static_cast<std::size_t>(count);
   const auto read = [&](auto& values, std::uint64_t dataset, const char* name) {
     values.resize(points);
     const std::size_t size = sizeof(values[0]);
@@ -132,16 +140,27 @@ void CloudReader::read_tile(std::size_t index, CloudTile& tile) const {
 
 void CloudReader::for_each_tile(const std::function<void(std::size_t, const CloudTile&)>& visit,
                                 const std::function<void(std::uint64_t)>& done) const {
-  tbb::enumerable_thread_specific<CloudTile> tiles_of_threads;
+  struct Part {
+    std::size_t tile;
+    std::uint64_t first, points;
+  };
+  std::vector<Part> parts;
+  for (std::size_t i = 0; i < tiles(); ++i) {
+    const std::uint64_t points = header().tile_offset[i + 1] - header().tile_offset[i];
+    for (std::uint64_t first = 0; first < points; first += kPart) {
+      parts.push_back({i, first, std::min(kPart, points - first)});
+    }
+  }
+  tbb::enumerable_thread_specific<CloudTile> points_of_threads;
   tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, tiles(), 1),
+      tbb::blocked_range<std::size_t>(0, parts.size(), 1),
       [&](const tbb::blocked_range<std::size_t>& range) {
-        CloudTile& tile = tiles_of_threads.local();
+        CloudTile& points = points_of_threads.local();
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
-          read_tile(i, tile);
-          visit(i, tile);
+          read_part(parts[i].tile, parts[i].first, parts[i].points, points);
+          visit(parts[i].tile, points);
           if (done) {
-            done(tile.size());
+            done(points.size());
           }
         }
       },

@@ -99,7 +99,10 @@ struct WallEvidence::Near {
   const std::vector<const Sums*>& at(double x, double y) const {
     const int ix = std::min(kCells - 1, static_cast<int>((x - low.x()) / cell.x()));
     const int iy = std::min(kCells - 1, static_cast<int>((y - low.y()) / cell.y()));
-    return walls[static_cast<std::size_t>(iy * kCells + ix)];
+    return walls[index(ix, iy)];
+  }
+  static std::size_t index(int ix, int iy) {
+    return static_cast<std::size_t>(iy) * kCells + static_cast<std::size_t>(ix);
   }
 };
 
@@ -125,7 +128,7 @@ WallEvidence::Near WallEvidence::walls_near(const CloudTile& tile) const {
       for (int ix = 0; ix < Near::kCells; ++ix) {
         const Vec2 corner = low + near.cell.cwiseProduct(Vec2(ix, iy));
         if (meets(*sums, corner.array() - kRounding, (corner + near.cell).array() + kRounding)) {
-          near.walls[static_cast<std::size_t>(iy * Near::kCells + ix)].push_back(sums.get());
+          near.walls[Near::index(ix, iy)].push_back(sums.get());
         }
       }
     }
@@ -133,7 +136,7 @@ WallEvidence::Near WallEvidence::walls_near(const CloudTile& tile) const {
   return near;
 }
 
-void WallEvidence::add_point(const Sums& sums, const Vec2& p, double z) {
+void WallEvidence::add_point(const Sums& sums, const Vec2& p, double z) const {
   const double depth = sums.normal.dot(p) - sums.offset;
   if (depth < -margin_m_ || depth > sums.reach_m || z < sums.z0 || z >= sums.z1) {
     return;

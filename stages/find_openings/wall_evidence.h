@@ -45,7 +45,7 @@ class WallEvidence {
   struct Near;
   bool meets(const Sums& sums, const Vec2& low, const Vec2& high) const;
   Near walls_near(const CloudTile& tile) const;
-  void add_point(const Sums& sums, const Vec2& p, double z);
+  void add_point(const Sums& sums, const Vec2& p, double z) const;
 
   std::vector<std::unique_ptr<Sums>> sums_;
   double margin_m_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <condition_variable>
 #include <memory>
 #include <mutex>
 
@@ -17,6 +18,8 @@ namespace {
 
 constexpr double kSmallestNoise_m = 1e-4;
 constexpr double kUnknownNoise_m = 5e-3;
+constexpr std::uint64_t kMostInWork = 16'000'000;  // points of all tiles in work; each takes some 50 bytes
+constexpr std::uint64_t kLargeTile = 4'000'000;   // points of a tile whose memory is not kept for the next
 
 struct FinishedTile {
   CloudTile cloud;
@@ -40,13 +43,49 @@ class FinishedTiles {
     return tile;
   }
   void give_back(const std::shared_ptr<FinishedTile>& tile) {
-    const std::scoped_lock lock(mutex_);
-    free_.push_back(tile);
+    if (tile->cloud.size() < kLargeTile) {
+      const std::scoped_lock lock(mutex_);
+      free_.push_back(tile);
+    }
   }
 
  private:
   std::mutex mutex_;
   std::vector<std::shared_ptr<FinishedTile>> free_;
+};
+
+/// Lets tiles in, in their order, as long as there is room for their points, and one in any case: the tiles
+/// of a very dense scan are worked on one after the other. The first tile inside can always go on, so none
+/// waits for ever.
+class TilesInWork {
+ public:
+  void enter(std::uint64_t points) {
+    std::unique_lock lock(mutex_);
+    left_.wait(lock, [&] { return points_ == 0 || points_ + points <= kMostInWork; });
+    points_ += points;
+  }
+  void leave(std::uint64_t points) {
+    const std::scoped_lock lock(mutex_);
+    points_ -= points;
+    left_.notify_one();
+  }
+  /// Leaves at the end of its scope, however that ends.
+  class Exit {
+   public:
+    Exit(TilesInWork& tiles, std::uint64_t points) : tiles_(tiles), points_(points) {}
+    ~Exit() { tiles_.leave(points_); }
+    Exit(const Exit&) = delete;
+    Exit& operator=(const Exit&) = delete;
+
+   private:
+    TilesInWork& tiles_;
+    std::uint64_t points_;
+  };
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable left_;
+  std::uint64_t points_ = 0;
 };
 
 /// What one thread needs to class tiles.
@@ -115,6 +154,7 @@ SurfaceSummary class_tiles(const TiledScan& scan, const IngestParams& params,
   const UnitScale scale(params.voxel_edge_m);
   tbb::enumerable_thread_specific<Workshop> workshops([&] { return Workshop(params); });
   FinishedTiles tiles;
+  TilesInWork in_work;
   SurfaceSummary summary;
   std::size_t next = 0;
   const auto tokens = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()) + 1;
@@ -123,16 +163,27 @@ SurfaceSummary class_tiles(const TiledScan& scan, const IngestParams& params,
       flow.stop();
       return std::size_t{0};
     }
+    in_work.enter(scan.tiles[next].points);
     return next++;
   };
   const auto class_one = [&](std::size_t tile) {
     std::shared_ptr<FinishedTile> finished = tiles.take();
-    class_tile(scan, scan.tiles[tile], scale, workshops.local(), *finished);
+    Workshop& workshop = workshops.local();
+    try {
+      class_tile(scan, scan.tiles[tile], scale, workshop, *finished);
+    } catch (...) {
+      in_work.leave(scan.tiles[tile].points);  // or the next one would wait for ever
+      throw;
+    }
+    if (scan.tiles[tile].points >= kLargeTile) {
+      workshop = Workshop(params);
+    }
     return finished;
   };
   const auto hand_over = [&](const std::shared_ptr<FinishedTile>& tile) {
     summary.estimates.add(tile->estimates);
     summary.tiles_with_refused_normals += tile->refused ? 1 : 0;
+    const TilesInWork::Exit exit(in_work, tile->cloud.size());
     take(tile->cloud);
     if (advance) {
       advance(tile->cloud.size());

@@ -8,6 +8,12 @@
 
 namespace roomcut {
 
+namespace {
+
+constexpr std::uint64_t kPart = std::uint64_t{1} << 16;  // points read at once
+
+}  // namespace
+
 std::vector<ThinPoint> thinned_points(const StageRun& run, std::uint64_t most) {
   const CloudReader cloud(run.input("cloud"));
   const CloudHeader& header = cloud.header();
@@ -20,13 +26,18 @@ std::vector<ThinPoint> thinned_points(const StageRun& run, std::uint64_t most) {
   }
   const std::uint64_t step = header.points / std::max<std::uint64_t>(most, 1) + 1;
   std::vector<ThinPoint> points;
-  CloudTile tile;
+  CloudTile part;
   for (std::size_t t = 0; t < cloud.tiles(); ++t) {
-    cloud.read_tile(t, tile);
-    for (std::size_t i = 0; i < tile.size(); i += step) {
-      const Vec3 p(tile.x[i], tile.y[i], tile.z[i]);
-      if ((p.array() >= shown.lo.array()).all() && (p.array() <= shown.hi.array()).all()) {
-        points.push_back({p, tile.surface[i]});
+    const std::uint64_t size = header.tile_offset[t + 1] - header.tile_offset[t];
+    std::uint64_t next = 0;  // of the tile's points
+    for (std::uint64_t first = 0; first < size; first += kPart) {
+      cloud.read_part(t, first, std::min(kPart, size - first), part);
+      for (; next < first + part.size(); next += step) {
+        const std::size_t i = next - first;
+        const Vec3 p(part.x[i], part.y[i], part.z[i]);
+        if ((p.array() >= shown.lo.array()).all() && (p.array() <= shown.hi.array()).all()) {
+          points.push_back({p, part.surface[i]});
+        }
       }
     }
   }

@@ -10,7 +10,8 @@ namespace roomcut {
 
 using TileVisitor = std::function<void(std::size_t, const CloudTile&)>;
 
-/// One pass over the points: calls the visitor once per tile, possibly from several threads and in any order.
+/// One pass over the points: calls the visitor with every tile, or with every part of it one after another,
+/// possibly from several threads and in any order.
 /// CloudReader::for_each_tile is one; tests make their own.
 using TileSource = std::function<void(const TileVisitor&)>;
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <mutex>
 
@@ -111,6 +112,28 @@ TEST_F(CloudIo, visits_every_tile_once) {
       });
   EXPECT_EQ(visits, std::vector<int>(40, 1));
   EXPECT_EQ(points, 4000U);
+}
+
+TEST_F(CloudIo, visits_a_large_tile_in_parts) {
+  const std::vector<CloudTile> tiles{tile_of(200'000, 1), tile_of(10, 2)};
+  write(path_, tiles);
+  const CloudReader reader(path_);
+  std::mutex mutex;
+  std::vector<float> heights;
+  std::size_t largest = 0;
+  reader.for_each_tile([&](std::size_t i, const CloudTile& part) {
+    const std::scoped_lock lock(mutex);
+    largest = std::max(largest, part.size());
+    if (i == 0) heights.insert(heights.end(), part.z.begin(), part.z.end());
+  });
+  EXPECT_LT(largest, 100'000U);
+  std::vector<float> expected = tiles[0].z;
+  std::sort(expected.begin(), expected.end());
+  std::sort(heights.begin(), heights.end());
+  EXPECT_EQ(heights, expected);
+  CloudTile part;
+  reader.read_part(0, 150'000, 3, part);
+  EXPECT_EQ(part.x, std::vector<float>(tiles[0].x.begin() + 150'000, tiles[0].x.begin() + 150'003));
 }
 
 TEST_F(CloudIo, writes_equal_clouds_to_equal_bytes) {
