@@ -11,7 +11,8 @@ namespace roomcut {
 
 /// Every n-th point of the input `cloud`, so that at most about `most` remain, tile by tile; of a scan with a
 /// model only the points within a metre of its box, since ghosts far outside would make everything else
-/// small. One pass over the points, some thousands of them in memory. Errors: those of the artefacts' readers.
+/// small. One pass over the points, some thousands of them in memory. Errors: those of the artefacts'
+/// readers.
 std::vector<ThinPoint> thinned_points(const StageRun& run, std::uint64_t most);
 
 }  // namespace roomcut
