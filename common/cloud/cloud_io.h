@@ -26,7 +26,8 @@ class CloudReader {
   void read_tile(std::size_t index, CloudTile& tile) const;
 
   /// Points [first, first + points) of a tile. Likewise.
-  void read_part(std::size_t index, std::uint64_t first, std::uint64_t points, CloudTile& part) const;
+  void read_part(std::size_t index, std::uint64_t first, std::uint64_t points,
+                 CloudTile& part) const;  // NOLINT(readability-inconsistent-declaration-parameter-name)
 
   /// Calls visit(index, points) for each tile, in parallel on TBB, in no particular order, and several times
   /// for one with many points, each time with a part of it that fits into the processor's cache: so memory

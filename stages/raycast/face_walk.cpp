@@ -50,7 +50,8 @@ FaceWalk::FaceWalk(const CellComplex& complex, const FaceWeights& weights)
   }
 }
 
-void FaceWalk::follow(const Ray& ray, std::vector<Crossing>& crossings, double limit_m, double opaque) const {
+void FaceWalk::follow(const Ray& ray, std::vector<Crossing>& crossings, double limit_m, double opaque)
+    const {  // NOLINT(readability-function-cognitive-complexity): the hot loop
   crossings.clear();
   const std::size_t edges = complex_.edges.size();
   const std::size_t faces = complex_.faces();
