@@ -51,8 +51,11 @@ ROOMCUT_H5_TYPE(double, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE)
 void prepare_library() {
   // Without this the library tries again at exit to flush a file that the disk refused, and never comes to an
   // end.
-  static const bool kPrepared = H5dont_atexit() >= 0 && H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr) >= 0;
-  static_cast<void>(kPrepared);
+  static const bool kNoRetry = H5dont_atexit() >= 0;
+  // A thread-safe library keeps an error stack, and whether it is printed, for each thread.
+  thread_local const bool kSilent = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr) >= 0;
+  static_cast<void>(kNoRetry);
+  static_cast<void>(kSilent);
 }
 
 std::string last_error() {

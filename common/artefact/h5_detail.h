@@ -11,7 +11,8 @@
 /// What the HDF5 reader, writer and inspector share; not for stages.
 namespace roomcut::h5 {
 
-/// Silences the library's own error printing and its clean-up at exit; cheap after the first call.
+/// Silences the library's own error printing, in this thread, and its clean-up at exit; cheap after the first
+/// call. To be called wherever a thread may meet the library for the first time.
 void prepare_library();
 
 /// The deepest entry of the library's error stack, e.g. "No space left on device"; never empty.

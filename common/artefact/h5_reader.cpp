@@ -126,6 +126,7 @@ Provenance read_provenance(const std::filesystem::path& path, hid_t file) {
 }  // namespace
 
 hid_t H5Reader::State::open(const std::string& dataset_path) {
+  h5::prepare_library();
   const std::string name = h5::absolute_path(dataset_path);
   if (opened != name) {
     opened.clear();

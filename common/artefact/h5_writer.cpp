@@ -99,6 +99,7 @@ H5Writer::~H5Writer() = default;
 
 void H5Writer::begin_raw(const std::string& path, hid_t memory_type, hid_t file_type, std::size_t size,
                          const h5::Shape& shape, std::string_view unit, std::string_view description) {
+  h5::prepare_library();
   const std::string name = h5::absolute_path(path);
   if (shape.empty() || state_->streams.contains(name)) {
     throw std::logic_error("dataset " + name + ": no shape, or begun twice");
@@ -130,6 +131,7 @@ void H5Writer::begin_raw(const std::string& path, hid_t memory_type, hid_t file_
 }
 
 void H5Writer::append_raw(const std::string& path, const void* data, std::size_t count, std::size_t size) {
+  h5::prepare_library();
   const std::string name = h5::absolute_path(path);
   const auto found = state_->streams.find(name);
   if (found == state_->streams.end() || found->second.item_bytes != size) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
+
 #include <sys/resource.h>
 #include <sys/wait.h>
 
 #include <csignal>
+#include <thread>
 
 #include "common/artefact/h5.h"
 #include "tests/unit/artefact/temporary_folder.h"
@@ -151,6 +153,30 @@ TEST(H5Refusals, a_full_disk_is_an_error_and_leaves_no_file) {
     EXPECT_EQ(WEXITSTATUS(status), 7) << limit_bytes;
     EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << limit_bytes;
   }
+}
+
+// A stage may write from a thread that did not open the file; the library's own words on the error would bury
+// ours.
+TEST(H5Refusals, a_full_disk_met_by_another_thread_prints_nothing) {
+  const TemporaryFolder folder;
+  const pid_t pid = ::fork();
+  if (pid == 0) {
+    ::signal(SIGXFSZ, SIG_IGN);
+    testing::internal::CaptureStderr();
+    H5Writer writer(folder / "a.h5", kType, {}, {});
+    writer.begin<double>("v", {100000}, "m", "values");
+    const rlimit limit{4000, 4000};
+    std::string code;
+    std::thread([&] {
+      ::setrlimit(RLIMIT_FSIZE, &limit);
+      code = code_of([&] { writer.append<double>("v", std::vector<double>(100000, 1.0)); });
+    }).join();
+    ::_exit(code == "O01" && testing::internal::GetCapturedStderr().empty() ? 7 : 8);
+  }
+  int status = 0;
+  ::waitpid(pid, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 7);
 }
 
 TEST(InspectArtefact, reads_what_an_artefact_states_and_hashes_any_other_file) {
