@@ -25,9 +25,8 @@ class CloudReader {
   /// Reads tile `index` into `tile` (its vectors are resized, capacity is reused). Thread-safe.
   void read_tile(std::size_t index, CloudTile& tile) const;
 
-  /// Points [first, first + points) of a tile. Likewise.
-  void read_part(std::size_t index, std::uint64_t first, std::uint64_t points,
-                 CloudTile& part) const;  // NOLINT(readability-inconsistent-declaration-parameter-name)
+  /// Points [first_in_tile, first_in_tile + count) of a tile. Likewise.
+  void read_part(std::size_t index, std::uint64_t first_in_tile, std::uint64_t count, CloudTile& tile) const;
 
   /// Calls visit(index, points) for each tile, in parallel on TBB, in no particular order, and several times
   /// for one with many points, each time with a part of it that fits into the processor's cache: so memory

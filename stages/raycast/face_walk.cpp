@@ -7,6 +7,10 @@
 
 namespace roomcut {
 
+namespace {
+constexpr double kStill = 1e-12;  // a ray that moves less towards a face runs along it
+}
+
 double completed_share(double omega) {
   constexpr double kNothing = 0.05;  // stray points, rims
   constexpr double kWhole = 0.4;
@@ -50,70 +54,79 @@ FaceWalk::FaceWalk(const CellComplex& complex, const FaceWeights& weights)
   }
 }
 
-void FaceWalk::follow(const Ray& ray, std::vector<Crossing>& crossings, double limit_m, double opaque)
-    const {  // NOLINT(readability-function-cognitive-complexity): the hot loop
-  crossings.clear();
-  const std::size_t edges = complex_.edges.size();
-  const std::size_t faces = complex_.faces();
-  const double dx = ray.direction.x();
-  const double dy = ray.direction.y();
+/// Where the ray leaves the face sideways; not by the edge that it came in by.
+inline FaceWalk::Exit FaceWalk::side_exit(const Ray& ray, std::size_t face, std::int32_t came_by) const {
+  Exit exit;
+  for (std::int64_t i = complex_.face_offset[face]; i < complex_.face_offset[face + 1]; ++i) {
+    const Side& side = sides_[static_cast<std::size_t>(i)];
+    const double speed = side.nx * ray.direction.x() + side.ny * ray.direction.y();
+    if (speed <= kStill || side.edge == came_by) {
+      continue;
+    }
+    const double at = (side.d - side.nx * ray.origin.x() - side.ny * ray.origin.y()) / speed;
+    if (at < exit.at) {
+      exit = {&side, at};
+    }
+  }
+  return exit;
+}
+
+/// Where it leaves the layer; infinity for a level ray.
+inline double FaceWalk::level_exit(const Ray& ray, std::size_t layer) const {
   const double dz = ray.direction.z();
-  constexpr double kNever = std::numeric_limits<double>::infinity();
+  if (std::abs(dz) <= kStill) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return (complex_.levels[dz > 0 ? layer + 1 : layer] - ray.origin.z()) / dz;
+}
+
+inline Crossing FaceWalk::through_side(const Side& side, std::size_t face, std::size_t layer,
+                                       double at) const {
+  const std::size_t w = complex_.wall_face(static_cast<std::size_t>(side.edge), layer);
+  const Sides& s = walls_[w];
+  const std::size_t cell = complex_.cell(face, layer);
+  return side.is_left ? Crossing{at, weights_.wall_omega[w], s.front, s.back, weights_.wall_left[w], cell}
+                      : Crossing{at, weights_.wall_omega[w], s.back, s.front, weights_.wall_right[w], cell};
+}
+
+inline Crossing FaceWalk::through_level(bool up, std::size_t face, std::size_t layer, double at) const {
+  const std::size_t l = complex_.level_face(face, up ? layer + 1 : layer);
+  const Sides& s = levels_[l];
+  const std::size_t cell = complex_.cell(face, layer);
+  return up ? Crossing{at, weights_.level_omega[l], s.back, s.front, weights_.level_ceiling[l], cell}
+            : Crossing{at, weights_.level_omega[l], s.front, s.back, weights_.level_floor[l], cell};
+}
+
+void FaceWalk::follow(const Ray& ray, std::vector<Crossing>& crossings, double limit_m, double opaque) const {
+  crossings.clear();
+  const bool up = ray.direction.z() > 0;
   std::size_t face = ray.face;
   std::size_t layer = ray.layer;
   double now = 0;
   double left = 1;  // of the ray
   std::int32_t came_by = -1;
   // Every step crosses an edge or a level; rounding at a sliver may not send a ray around for ever.
-  for (std::size_t step = 0; step < edges + complex_.levels.size(); ++step) {
-    double wall_at = kNever;
-    const Side* exit = nullptr;
-    for (std::int64_t i = complex_.face_offset[face]; i < complex_.face_offset[face + 1]; ++i) {
-      const Side& side = sides_[static_cast<std::size_t>(i)];
-      const double speed = side.nx * dx + side.ny * dy;
-      if (speed <= 1e-12 || side.edge == came_by) {
-        continue;
-      }
-      const double at = (side.d - side.nx * ray.origin.x() - side.ny * ray.origin.y()) / speed;
-      if (at < wall_at) {
-        wall_at = at;
-        exit = &side;
-      }
-    }
-    double level_at = kNever;
-    if (dz > 1e-12) {
-      level_at = (complex_.levels[layer + 1] - ray.origin.z()) / dz;
-    } else if (dz < -1e-12) {
-      level_at = (complex_.levels[layer] - ray.origin.z()) / dz;
-    }
-    if ((exit == nullptr && level_at == kNever) || std::min(wall_at, level_at) > limit_m) {
+  for (std::size_t step = 0; step < complex_.edges.size() + complex_.levels.size(); ++step) {
+    const Exit exit = side_exit(ray, face, came_by);
+    const double level_at = level_exit(ray, layer);
+    const double next = std::min(exit.at, level_at);
+    if (next > limit_m || next == std::numeric_limits<double>::infinity()) {
       return;
     }
-    if (exit != nullptr && wall_at <= level_at) {
-      now = std::max(now, wall_at);
-      const std::size_t w = layer * edges + static_cast<std::size_t>(exit->edge);
-      const Sides& s = walls_[w];
-      crossings.push_back(
-          {now, weights_.wall_omega[w], exit->is_left ? s.front : s.back, exit->is_left ? s.back : s.front,
-           exit->is_left ? weights_.wall_left[w] : weights_.wall_right[w], complex_.cell(face, layer)});
-      if (exit->neighbour < 0) {
+    now = std::max(now, next);
+    if (exit.at <= level_at) {
+      crossings.push_back(through_side(*exit.side, face, layer, now));
+      if (exit.side->neighbour < 0) {
         return;
       }
-      face = static_cast<std::size_t>(exit->neighbour);
-      came_by = exit->edge;
+      face = static_cast<std::size_t>(exit.side->neighbour);
+      came_by = exit.side->edge;
     } else {
-      now = std::max(now, level_at);
-      const std::size_t level = dz > 0 ? layer + 1 : layer;
-      const std::size_t l = level * faces + face;
-      const float floor = weights_.level_floor[l];
-      const float ceiling = weights_.level_ceiling[l];
-      const Sides& s = levels_[l];
-      crossings.push_back({now, weights_.level_omega[l], dz > 0 ? s.back : s.front, dz > 0 ? s.front : s.back,
-                           dz > 0 ? ceiling : floor, complex_.cell(face, layer)});
-      if ((dz > 0 && layer + 1 == complex_.layers()) || (dz < 0 && layer == 0)) {
+      crossings.push_back(through_level(up, face, layer, now));
+      if (up ? layer + 1 == complex_.layers() : layer == 0) {
         return;
       }
-      layer = dz > 0 ? layer + 1 : layer - 1;
+      layer = up ? layer + 1 : layer - 1;
     }
     left *= 1 - crossings.back().front - crossings.back().back;
     if (opaque > 0 && left < opaque) {

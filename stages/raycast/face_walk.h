@@ -52,6 +52,15 @@ class FaceWalk {
     bool is_left;            // the face lies left of the edge
   };
 
+  struct Exit {
+    const Side* side = nullptr;  // null when the ray runs straight up or down
+    double at = std::numeric_limits<double>::infinity();
+  };
+  Exit side_exit(const Ray& ray, std::size_t face, std::int32_t came_by) const;
+  double level_exit(const Ray& ray, std::size_t layer) const;
+  Crossing through_side(const Side& side, std::size_t face, std::size_t layer, double at) const;
+  Crossing through_level(bool up, std::size_t face, std::size_t layer, double at) const;
+
   const CellComplex& complex_;
   const FaceWeights& weights_;
   struct Sides {
