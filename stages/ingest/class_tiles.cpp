@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kSmallestNoise_m = 1e-4;
 constexpr double kUnknownNoise_m = 5e-3;
+constexpr double kSeveralSurfaces = 3;  // lower quartiles of the noise: what scatters more is no single plane
 constexpr std::uint64_t kMostInWork = 16'000'000;  // points of all tiles in work; each takes some 50 bytes
 constexpr std::uint64_t kLargeTile = 4'000'000;    // points of a tile whose memory is not kept for the next
 
@@ -201,7 +202,11 @@ SurfaceSummary class_tiles(const TiledScan& scan, const IngestParams& params,
 
 double noise_of(const SurfaceEstimates& estimates, double step_m) {
   const double lowest = std::max(kSmallestNoise_m, step_m / std::sqrt(12.0));
-  return std::max(lowest, estimates.noise.total() > 0 ? estimates.noise.median() : kUnknownNoise_m);
+  if (estimates.noise.total() == 0) {
+    return std::max(lowest, kUnknownNoise_m);
+  }
+  const LogHistogram planes = estimates.noise.below(kSeveralSurfaces * estimates.noise.quantile(0.25));
+  return std::max(lowest, planes.total() > 0 ? planes.median() : estimates.noise.median());
 }
 
 double density_of(const SurfaceEstimates& estimates) {

@@ -115,6 +115,21 @@ TEST(SurfaceClasses, of_points_all_over_a_volume_are_none) {
   EXPECT_LT(classed, 6'000U) << "17 points in each neighbourhood: some look flat by chance";
 }
 
+TEST(Noise, is_not_that_of_neighbourhoods_with_both_faces_of_a_wall) {
+  std::mt19937_64 random(6);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::normal_distribution<double> error(0, 0.005);
+  std::vector<Vec3> points;
+  const double density = 160;  // a neighbourhood with 20 points is wider than the wall is thick
+  for (int i = 0; i < 2 * 12 * density; ++i) {
+    points.emplace_back(4 * unit(random), (i % 2) * 0.12 + error(random), 3 * unit(random));
+  }
+  for (int i = 0; i < 16 * density; ++i) {
+    points.emplace_back(4 * unit(random), -0.3 - 4 * unit(random), error(random));
+  }
+  EXPECT_NEAR(make_cloud(MemoryScan(points)).header.noise_m, 0.005, 0.0005);
+}
+
 TEST(SurfaceClasses, keep_the_two_faces_of_a_thin_wall_apart) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> unit(0, 4);
