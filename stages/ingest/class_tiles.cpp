@@ -18,7 +18,8 @@ namespace {
 
 constexpr double kSmallestNoise_m = 1e-4;
 constexpr double kUnknownNoise_m = 5e-3;
-constexpr double kSeveralSurfaces = 3;  // lower quartiles of the noise: what scatters more is no single plane
+constexpr double kTwoFaces_m =
+    0.025;  // the scatter of both faces of a wall of 5 cm: what scatters more is no plane
 constexpr std::uint64_t kMostInWork = 16'000'000;  // points of all tiles in work; each takes some 50 bytes
 constexpr std::uint64_t kLargeTile = 4'000'000;    // points of a tile whose memory is not kept for the next
 
@@ -205,8 +206,9 @@ double noise_of(const SurfaceEstimates& estimates, double step_m) {
   if (estimates.noise.total() == 0) {
     return std::max(lowest, kUnknownNoise_m);
   }
-  const LogHistogram planes = estimates.noise.below(kSeveralSurfaces * estimates.noise.quantile(0.25));
-  return std::max(lowest, planes.total() > 0 ? planes.median() : estimates.noise.median());
+  const LogHistogram planes = estimates.noise.below(kTwoFaces_m);
+  const bool enough = 4 * planes.total() >= estimates.noise.total();
+  return std::max(lowest, enough ? planes.median() : estimates.noise.median());
 }
 
 double density_of(const SurfaceEstimates& estimates) {
