@@ -35,8 +35,8 @@ Rules derive_rules(const Slices& slices, const WallCells& cells, const DetectLin
                    std::vector<DetectLinesChoice>& choices) {
   Rules rules;
   const double noise = slices.noise_m;
-  const double inlier = std::max(0.02, 2.5 * noise);
-  rules.fit.inlier_m = resolve(params.inlier_m, inlier, "inlier_m", "max(2 cm, 2.5 x noise)", choices);
+  const double inlier = std::max(0.025, 2.5 * noise);
+  rules.fit.inlier_m = resolve(params.inlier_m, inlier, "inlier_m", "max(2.5 cm, 2.5 x noise)", choices);
   rules.fit.inlier_angle_rad = params.inlier_angle_rad;
   rules.fit.cauchy_m = std::max(0.01, noise);
   rules.fit.bin_m = 2 * slices.tau_m;

@@ -18,8 +18,7 @@ namespace {
 
 constexpr double kSmallestNoise_m = 1e-4;
 constexpr double kUnknownNoise_m = 5e-3;
-constexpr double kTwoFaces_m =
-    0.025;  // the scatter of both faces of a wall of 5 cm: what scatters more is no plane
+constexpr double kTwoFaces_m = 0.025;  // scatter of both faces of a wall of 5 cm: more is no plane
 constexpr std::uint64_t kMostInWork = 16'000'000;  // points of all tiles in work; each takes some 50 bytes
 constexpr std::uint64_t kLargeTile = 4'000'000;    // points of a tile whose memory is not kept for the next
 

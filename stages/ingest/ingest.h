@@ -63,8 +63,8 @@ struct SurfaceSummary {
 SurfaceSummary class_tiles(const TiledScan& scan, const IngestParams& params,
                            const std::function<void(const CloudTile&)>& take, const Advance& advance = {});
 
-/// Noise from the voxels, but not below what rounded coordinates or 0.1 mm allow; 5 mm when no voxel was a
-/// clear plane.
+/// Noise [m]: the median over the clear planes that scatter less than the two faces of a thin wall would, but
+/// not below what rounded coordinates or 0.1 mm allow; 5 mm when no voxel was a clear plane.
 double noise_of(const SurfaceEstimates& estimates, double step_m);
 /// Points per square metre; 0 without points.
 double density_of(const SurfaceEstimates& estimates);
