@@ -85,11 +85,15 @@ std::vector<std::vector<std::int32_t>> edges_of_faces(const CellComplex& complex
   return edges;
 }
 
-/// Tries the openings on the refined complex.
+/// Tries the openings on the refined complex. Closes in `closed` what the cut had emptied of an accepted one.
 class Opener {
  public:
-  Opener(const CellComplex& complex, const Labels& closed)
-      : complex_(complex), label_(closed.label), edges_(edges_of_faces(complex)), check_(complex) {}
+  Opener(const CellComplex& complex, Labels& closed)
+      : complex_(complex),
+        closed_(closed.label),
+        label_(closed.label),
+        edges_(edges_of_faces(complex)),
+        check_(complex) {}
 
   /// Opens it when it fits; else says why not.
   std::string try_open(const Opening& opening, std::int32_t middle_face, Passage& passage) {
@@ -102,6 +106,7 @@ class Opener {
     }
     passage.opening = opening;
     std::set<std::int32_t> faces{middle_face};
+    std::size_t top = complex_.layers();  // of the wall beside the jambs
     std::vector<std::int32_t> open{middle_face};
     bool side_a = false;
     bool side_b = false;
@@ -125,6 +130,7 @@ class Opener {
           if (!all(other, *sill, *head, kSolid)) {
             return "the wall does not go on beside a jamb";
           }
+          top = std::min(top, end_of_solid(other, *head));
         } else if (faces.insert(other).second) {
           if (!inside(opening, complex_.centroid(static_cast<std::size_t>(other)))) {
             return "the wall's faces do not bound it";
@@ -136,7 +142,7 @@ class Opener {
     if (!side_a || !side_b) {
       return "it does not reach through the wall";
     }
-    return fill(faces, *sill, *head, passage);
+    return fit(faces, *sill, *head, top, passage);
   }
 
  private:
@@ -168,34 +174,52 @@ class Opener {
     return near(opening.jamb_a) || near(opening.jamb_b);
   }
 
-  std::string fill(const std::set<std::int32_t>& faces, std::size_t sill, std::size_t head,
-                   Passage& passage) {
+  /// The first layer from `layer` upwards in which the face is not solid.
+  std::size_t end_of_solid(std::int32_t face, std::size_t layer) const {
+    while (layer < complex_.layers() && all(face, layer, layer + 1, kSolid)) {
+      ++layer;
+    }
+    return layer;
+  }
+
+  /// Empties the layers [sill, head) of the faces and closes [head, top).
+  std::string fit(const std::set<std::int32_t>& faces, std::size_t sill, std::size_t head, std::size_t top,
+                  Passage& passage) {
+    const std::vector<std::uint8_t> before = label_;
+    std::vector<std::size_t> lintel;
     for (const std::int32_t face : faces) {
-      if (!all(face, sill, head, kSolid)) {
-        return "the wall is not solid there";
-      }
-      for (std::size_t k = sill; k < head; ++k) {
-        passage.cells.push_back(complex_.cell(static_cast<std::size_t>(face), k));
-        passage.volume_m3 += complex_.area(static_cast<std::size_t>(face)) * complex_.height(k);
+      for (std::size_t k = sill; k < top; ++k) {
+        const std::size_t cell = complex_.cell(static_cast<std::size_t>(face), k);
+        if (label_[cell] == kEmpty && closed_[cell] == kSolid) {
+          label_ = before;
+          return "it overlaps another opening";
+        }
+        const std::uint8_t wanted = k < head ? kEmpty : kSolid;
+        if (label_[cell] != wanted) {
+          const double volume = complex_.area(static_cast<std::size_t>(face)) * complex_.height(k);
+          passage.volume_m3 += k < head ? volume : -volume;
+          label_[cell] = wanted;
+        }
+        (k < head ? passage.cells : lintel).push_back(cell);
       }
     }
-    for (const std::size_t cell : passage.cells) {
-      label_[cell] = kEmpty;
-    }
-    if (!is_manifold(faces, sill, head)) {
-      for (const std::size_t cell : passage.cells) {
-        label_[cell] = kSolid;
-      }
+    if (!is_manifold(faces, sill, top)) {
+      label_ = before;
       return "surfaces would touch in an edge or a corner";
+    }
+    for (const auto* cells : {&passage.cells, &lintel}) {
+      for (const std::size_t cell : *cells) {
+        closed_[cell] = kSolid;
+      }
     }
     return "";
   }
 
-  bool is_manifold(const std::set<std::int32_t>& faces, std::size_t sill, std::size_t head) const {
+  bool is_manifold(const std::set<std::int32_t>& faces, std::size_t sill, std::size_t top) const {
     for (const std::int32_t face : faces) {
       const auto f = static_cast<std::size_t>(face);
       for (auto i = complex_.face_offset[f]; i < complex_.face_offset[f + 1]; ++i) {
-        for (std::size_t level = sill; level <= head; ++level) {
+        for (std::size_t level = sill; level <= top; ++level) {
           if (!check_.is_manifold(
                   {static_cast<std::int32_t>(level), complex_.face_vertex[static_cast<std::size_t>(i)]},
                   label_)) {
@@ -208,7 +232,8 @@ class Opener {
   }
 
   const CellComplex& complex_;
-  std::vector<std::uint8_t> label_;
+  std::vector<std::uint8_t>& closed_;
+  std::vector<std::uint8_t> label_;  // with the accepted openings open
   std::vector<std::vector<std::int32_t>> edges_;
   ManifoldCheck check_;
 };

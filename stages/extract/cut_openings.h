@@ -12,9 +12,9 @@ namespace roomcut {
 /// An opening as cells of the refined complex.
 struct Passage {
   Opening opening;
-  std::vector<std::size_t> cells;      ///< that become empty; solid in the labels
+  std::vector<std::size_t> cells;      ///< that become empty; solid in the closed labels
   std::size_t cell_a = 0, cell_b = 0;  ///< empty cells beside it, at its sill: of the two rooms
-  double volume_m3 = 0;
+  double volume_m3 = 0;                ///< by which it enlarges the empty space
 };
 
 /// A complex in which openings are whole cells, and its labels, in which they are still closed.
@@ -27,10 +27,11 @@ struct OpenableComplex {
 
 /// Refines the complex so that every opening is a set of cells: its jambs cut the plan between the wall's two
 /// faces and nowhere else, its head (and sill) become levels. Labels are inherited, so the surface stays the
-/// same; then the openings are tried one after the other and accepted where all their cells are solid,
-/// with solid cells beyond the jambs and empty ones beyond the two faces, and where the surface
-/// with this and all accepted ones opened is a 2-manifold. So the result has a watertight surface whichever
-/// openings are given. Levels multiply cells, but no ray and no cut sees them: only the surface's extraction.
+/// same; then the openings are tried one after the other and accepted where solid cells lie beyond the jambs
+/// and empty ones beyond the two faces. Cells of an opening, or above it as far as the wall goes on beside
+/// both jambs, that the cut had emptied already become solid in the closed labels. The surface with this and
+/// all accepted ones opened must be a 2-manifold. So the result has a watertight surface whichever openings
+/// are given. Levels multiply cells, but no ray and no cut sees them: only the surface's extraction.
 OpenableComplex cut_openings(const CellComplex& complex, const Labels& labels,
                              const std::vector<Opening>& openings);
 

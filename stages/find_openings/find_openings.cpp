@@ -42,6 +42,7 @@ class WallSearch {
   bool is_open(double t0, double t1, double z0, double z1) const;
   bool wall_goes_on(const Stretch& stretch, double t0, double t1, double z0, double z1) const;
   bool head_fits(const Stretch& stretch, double t0, double t1, double head) const;
+  bool has_gap(const Stretch& stretch, double t0, double t1) const;
   Opening make(const Stretch& stretch, const RevealSurface& a, const RevealSurface& b,
                const RevealSurface& head) const;
   double door_z0(const Stretch& stretch) const { return stretch.floor_z + kAboveFloor_m; }
@@ -118,7 +119,23 @@ bool WallSearch::head_fits(const Stretch& stretch, double t0, double t1, double 
     return false;
   }
   const auto above = reveal_.cover(t0, t1, head + kJambDepth_m, stretch.top_z - kJambDepth_m);
-  return stretch.top_z - head < kLintel_m || !above || above->either() >= kWallGoesOn;
+  if (stretch.top_z - head < kLintel_m || !above) {
+    return !has_gap(stretch, t0, t1);  // without a lintel it may as well be where two walls end
+  }
+  return above->either() >= kWallGoesOn;
+}
+
+/// Whether the cut has left the wall away somewhere between t0 and t1.
+bool WallSearch::has_gap(const Stretch& stretch, double t0, double t1) const {
+  const auto layer = static_cast<std::size_t>(
+      std::lower_bound(levels_.begin(), levels_.end(), stretch.floor_z) - levels_.begin());
+  for (std::size_t c = stretch.first; c < stretch.last; ++c) {
+    const double t = wall_.t0() + (static_cast<double>(c) + 0.5) * wall_.step_m;
+    if (t > t0 && t < t1 && wall_.is_gap(c, layer)) {
+      return true;
+    }
+  }
+  return false;
 }
 
 std::optional<Opening> WallSearch::check(const Stretch& stretch, const RevealSurface& a,

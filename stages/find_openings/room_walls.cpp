@@ -137,10 +137,28 @@ class Walker {
   std::vector<std::size_t> start_, open_;  // layers
 };
 
+void mark_gaps(RoomWall& wall, double max_gap_m) {
+  const auto most = static_cast<std::size_t>(std::floor(max_gap_m / wall.step_m));
+  for (std::size_t k = 0; k < wall.layers; ++k) {
+    std::size_t last = wall.columns;  // none yet
+    for (std::size_t c = 0; c < wall.columns; ++c) {
+      if (!wall.stands(c, k)) {
+        continue;
+      }
+      if (last < c && c - last - 1 <= most) {
+        for (std::size_t gap = last + 1; gap < c; ++gap) {
+          wall.wall[gap * wall.layers + k] = 2;
+        }
+      }
+      last = c;
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<RoomWall> find_room_walls(const CellComplex& complex, const std::vector<std::uint8_t>& label,
-                                      double max_thickness_m, double step_m) {
+                                      double max_thickness_m, double max_gap_m, double step_m) {
   std::vector<RoomWall> walls;
   for (const auto& [key, places] : Walker(complex, label, max_thickness_m, step_m).walk_all()) {
     if (places.empty()) {
@@ -160,6 +178,7 @@ std::vector<RoomWall> find_room_walls(const CellComplex& complex, const std::vec
       wall.wall[static_cast<std::size_t>(column - wall.first) * wall.layers +
                 static_cast<std::size_t>(layer)] = 1;
     }
+    mark_gaps(wall, max_gap_m);
     walls.push_back(std::move(wall));
   }
   return walls;

@@ -107,6 +107,27 @@ TEST(CutOpenings, ADoorUpToTheCeilingAndOneOverAnotherLevel) {
   EXPECT_EQ(model.check.euler, 0) << "two doors between two rooms: one handle";
 }
 
+TEST(CutOpenings, APartThatTheCutHadEmptiedIsClosedAboveTheHead) {
+  TwoRooms rooms;
+  const double closed = closed_m3(rooms);
+  for (std::size_t k = 0; k < rooms.complex.layers(); ++k) {  // the wall between y = 2.2 and 3 is gone
+    for (std::size_t f = 0; f < rooms.complex.faces(); ++f) {
+      const Vec2 p = rooms.complex.centroid(f);
+      const double z = 0.5 * (rooms.complex.levels[k] + rooms.complex.levels[k + 1]);
+      if (p.x() > 4 && p.x() < 4.2 && p.y() > 2.2 && p.y() < 3 && z > 0 && z < 2.5) {
+        rooms.labels.label[rooms.complex.cell(f, k)] = static_cast<std::uint8_t>(Label::kEmpty);
+      }
+    }
+  }
+  ASSERT_NEAR(closed_m3(rooms), closed + 0.8 * 2.5 * 0.2, 1e-9);
+  const Model model = extract_model(rooms.complex, rooms.labels, {rooms.door(2.0, 3.1, 2.0)}, {});
+  EXPECT_EQ(model.fault, "");
+  EXPECT_NEAR(model.empty_m3, closed + 1.1 * 2.0 * 0.2, 1e-9);
+  EXPECT_EQ(model.rooms.size(), 2U) << "the rooms are those of the closed wall";
+  ASSERT_EQ(model.openings.size(), 1U);
+  EXPECT_NEAR(model.openings[0].volume_m3, model.empty_m3 - closed_m3(rooms), 1e-9);
+}
+
 TEST(CutOpenings, WhatDoesNotFitTheLabelsStaysClosedAndSaysWhy) {
   const TwoRooms rooms;
   Opening outside = rooms.door(1.5, 2.5, 2.0);

@@ -42,6 +42,25 @@ TEST(FindOpenings, ADoorwayWithinFiveMillimetres) {
   }
 }
 
+TEST(FindOpenings, ADoorwayThatTheCutHasEmptiedInPart) {
+  for (const Patch& gap : {Patch{2.3, 2.5, 0, 2.6}, Patch{2.1, 2.85, 0, 2.6}}) {
+    MadeWall wall;
+    wall.gap = gap;
+    wall.faces({kDoor}, {kDoor});
+    wall.doorway(kDoor);
+    expect_door(wall, wall.search(), 0.005);
+  }
+}
+
+TEST(FindOpenings, WhereTwoWallsEndBesideACorridorIsNone) {
+  MadeWall wall;
+  const Patch corridor{2.0, 2.9, 0, 2.6};
+  wall.gap = corridor;
+  wall.faces({corridor}, {corridor});
+  wall.doorway(corridor);
+  EXPECT_TRUE(wall.search().empty());
+}
+
 TEST(FindOpenings, AlsoWithFewPoints) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     MadeWall sparse;

@@ -54,15 +54,23 @@ class MadeWall {
     level(door.z0, door.y0, door.y1);
   }
 
+  /// The wall between these y is missing in the labels.
+  Patch gap{0, 0, 0, 0};
+
   CellComplex complex() const {
-    return grid_complex({-1, 0, 4, 4 + thickness, 8, 9}, {-1, 0, 5, 6}, {-0.5, 0, 2.6, 3}, angle);
+    std::vector<double> y{-1, 0, 5, 6};
+    if (gap.y1 > gap.y0) {
+      y = {-1, 0, gap.y0, gap.y1, 5, 6};
+    }
+    return grid_complex({-1, 0, 4, 4 + thickness, 8, 9}, y, {-0.5, 0, 2.6, 3}, angle);
   }
   Labels labels(const CellComplex& made) const {
     return label_where(made, [&](const Vec2& p, double z) {
       const Vec2 q = turned(p, -angle);
       const bool in_a = q.x() > 0 && q.x() < 4;
       const bool in_b = q.x() > 4 + thickness && q.x() < 8;
-      return (in_a || in_b) && q.y() > 0 && q.y() < 5 && z > 0 && z < 2.6;
+      const bool in_gap = q.x() > 0 && q.x() < 8 && q.y() > gap.y0 && q.y() < gap.y1;
+      return (in_a || in_b || in_gap) && q.y() > 0 && q.y() < 5 && z > 0 && z < 2.6;
     });
   }
   std::vector<Opening> search() const {
@@ -70,7 +78,7 @@ class MadeWall {
     const FindOpeningsParams params;
     const OpeningTolerances tolerances = opening_tolerances(params, noise_m, density);
     const std::vector<RoomWall> walls =
-        find_room_walls(made, labels(made).label, params.max_thickness_m, kColumn_m);
+        find_room_walls(made, labels(made).label, params.max_thickness_m, params.max_width_m, kColumn_m);
     WallEvidence evidence(walls, made.levels, {tolerances.margin_m, tolerances.row_m});
     evidence.add(tile_);
     return find_openings(made, walls, evidence, params, tolerances);
