@@ -30,13 +30,11 @@ inline constexpr double kColumn_m = 0.05;  ///< of the walls' rasters
 ///    45 % of the height up to min_height_m;
 ///  - a head between them, at least min_height_m above the floor, with points on half of the width;
 ///  - both faces are uncovered from jamb to jamb (a fifth at most is covered) and no points are between them
-///  (an
-///    eighth at most), also beside each jamb and below the head by themselves: a closed door, a niche or a
-///    bookcase in the wall is no opening;
+///    (an eighth at most), also beside each jamb and below the head by themselves: a closed door, a niche or
+///    a bookcase in the wall is no opening;
 ///  - beside both jambs, and above the head, one of the two faces is covered: there the wall goes on;
 ///  - the wall stands, with rooms on both sides, from the floor to beyond the head and beyond the jambs;
-///  where the
-///    cut has left a gap in it, a lintel with points has to prove it.
+///    where the cut has left a gap in it, a lintel with points has to prove it.
 /// Evidence in part makes no opening. `levels` as in CellComplex. Ids and walls are left empty.
 std::vector<Opening> find_openings_in(const RoomWall& wall, const WallRasters& rasters,
                                       const std::vector<double>& levels, const FindOpeningsParams& params,
