@@ -104,7 +104,7 @@ class MadeWall {
   static Vec2 turned(const Vec2& p, double by) {
     return {std::cos(by) * p.x() - std::sin(by) * p.y(), std::sin(by) * p.x() + std::cos(by) * p.y()};
   }
-  void fill(double area, const std::function<void()>& one) {
+  void fill(double area, const std::function<void()>& one) const {
     for (int i = static_cast<int>(area * density); i > 0; --i) {
       one();
     }

@@ -88,9 +88,10 @@ struct Room {
   int face_at(const Vec3& world, double clear) const {
     const Vec3 p = to_room(world);
     std::array<std::pair<double, int>, 6> distance;
+    std::size_t face = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      distance[static_cast<std::size_t>(2 * axis)] = {std::abs(p[axis]), axis};
-      distance[static_cast<std::size_t>(2 * axis + 1)] = {std::abs(p[axis] - size[axis]), axis};
+      distance[face++] = {std::abs(p[axis]), axis};
+      distance[face++] = {std::abs(p[axis] - size[axis]), axis};
     }
     std::sort(distance.begin(), distance.end());
     return distance[1].first < clear ? -1 : distance[0].second;

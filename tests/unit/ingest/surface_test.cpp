@@ -86,6 +86,7 @@ TEST(SurfaceClasses, are_right_where_a_plane_slopes) {
   std::vector<Vec3> points;
   const Vec3 normal(-std::sin(40 * kDegree), 0, std::cos(40 * kDegree));
   const Vec3 along(std::cos(40 * kDegree), 0, std::sin(40 * kDegree));
+  points.reserve(25'000);
   for (int i = 0; i < 25'000; ++i) {
     points.emplace_back(unit(random) * along + Vec3(0, unit(random), 0) + error(random) * normal);
   }
@@ -105,6 +106,7 @@ TEST(SurfaceClasses, of_points_all_over_a_volume_are_none) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> unit(0, 2);
   std::vector<Vec3> points;
+  points.reserve(40'000);
   for (int i = 0; i < 40'000; ++i) {
     points.emplace_back(unit(random), unit(random), unit(random));
   }
@@ -120,11 +122,12 @@ TEST(Noise, is_not_that_of_neighbourhoods_with_both_faces_of_a_wall) {
   std::uniform_real_distribution<double> unit(0, 1);
   std::normal_distribution<double> error(0, 0.005);
   std::vector<Vec3> points;
-  const double density = 160;  // a neighbourhood with 20 points is wider than the wall is thick
-  for (int i = 0; i < 2 * 12 * density; ++i) {
+  constexpr int kDensity = 160;  // a neighbourhood with 20 points is wider than the wall is thick
+  points.reserve(40 * kDensity);
+  for (int i = 0; i < 2 * 12 * kDensity; ++i) {
     points.emplace_back(4 * unit(random), (i % 2) * 0.12 + error(random), 3 * unit(random));
   }
-  for (int i = 0; i < 16 * density; ++i) {
+  for (int i = 0; i < 16 * kDensity; ++i) {
     points.emplace_back(4 * unit(random), -0.3 - 4 * unit(random), error(random));
   }
   EXPECT_NEAR(make_cloud(MemoryScan(points)).header.noise_m, 0.005, 0.0005);
@@ -135,6 +138,7 @@ TEST(SurfaceClasses, keep_the_two_faces_of_a_thin_wall_apart) {
   std::uniform_real_distribution<double> unit(0, 4);
   std::normal_distribution<double> error(0, 0.005);
   std::vector<Vec3> points;
+  points.reserve(48'000);
   for (int i = 0; i < 48'000; ++i) {
     points.emplace_back(unit(random), (i % 2) * 0.12 + error(random), unit(random) * 0.75);
   }
