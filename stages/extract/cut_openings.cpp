@@ -105,47 +105,60 @@ class Opener {
       return "it lies in no wall";
     }
     passage.opening = opening;
-    std::set<std::int32_t> faces{middle_face};
-    std::size_t top = complex_.layers();  // of the wall beside the jambs
-    std::vector<std::int32_t> open{middle_face};
-    bool side_a = false;
-    bool side_b = false;
-    while (!open.empty()) {
-      const std::int32_t face = open.back();
-      open.pop_back();
+    Flood flood{*a, *b, *sill, *head, complex_.layers(), {middle_face}, {middle_face}};
+    while (!flood.open.empty()) {
+      const std::int32_t face = flood.open.back();
+      flood.open.pop_back();
       for (const std::int32_t e : edges_[static_cast<std::size_t>(face)]) {
-        const CellComplex::Edge& edge = complex_.edges[static_cast<std::size_t>(e)];
-        const std::int32_t other = edge.left == face ? edge.right : edge.left;
-        if (other < 0 || edge.line < 0) {
-          return "it reaches the bounding box";
-        }
-        const bool face_a = edge.line == *a;
-        if (face_a || edge.line == *b) {
-          if (!all(other, *sill, *head, kEmpty)) {
-            return "there is no room on one side";
-          }
-          (face_a ? side_a : side_b) = true;
-          (face_a ? passage.cell_a : passage.cell_b) = complex_.cell(static_cast<std::size_t>(other), *sill);
-        } else if (lies_on_jamb(opening, edge)) {
-          if (!all(other, *sill, *head, kSolid)) {
-            return "the wall does not go on beside a jamb";
-          }
-          top = std::min(top, end_of_solid(other, *head));
-        } else if (faces.insert(other).second) {
-          if (!inside(opening, complex_.centroid(static_cast<std::size_t>(other)))) {
-            return "the wall's faces do not bound it";
-          }
-          open.push_back(other);
+        if (std::string why = cross(opening, face, e, flood, passage); !why.empty()) {
+          return why;
         }
       }
     }
-    if (!side_a || !side_b) {
+    if (!flood.side_a || !flood.side_b) {
       return "it does not reach through the wall";
     }
-    return fit(faces, *sill, *head, top, passage);
+    return fit(flood.faces, flood.sill, flood.head, flood.top, passage);
   }
 
  private:
+  /// The faces of the plan inside an opening, as found so far.
+  struct Flood {
+    std::int32_t line_a, line_b;
+    std::size_t sill, head, top;  ///< levels; top: of the wall beside the jambs
+    std::set<std::int32_t> faces;
+    std::vector<std::int32_t> open;  ///< whose edges have not been crossed
+    bool side_a = false, side_b = false;
+  };
+
+  /// Goes on through an edge of a face inside the opening, or finds its border there. Says why it does not
+  /// fit.
+  std::string cross(const Opening& opening, std::int32_t face, std::int32_t e, Flood& flood,
+                    Passage& passage) const {
+    const CellComplex::Edge& edge = complex_.edges[static_cast<std::size_t>(e)];
+    const std::int32_t other = edge.left == face ? edge.right : edge.left;
+    if (other < 0 || edge.line < 0) {
+      return "it reaches the bounding box";
+    }
+    const bool face_a = edge.line == flood.line_a;
+    if (face_a || edge.line == flood.line_b) {
+      (face_a ? flood.side_a : flood.side_b) = true;
+      (face_a ? passage.cell_a : passage.cell_b) = complex_.cell(static_cast<std::size_t>(other), flood.sill);
+      return all(other, flood.sill, flood.head, kEmpty) ? "" : "there is no room on one side";
+    }
+    if (lies_on_jamb(opening, edge)) {
+      flood.top = std::min(flood.top, end_of_solid(other, flood.head));
+      return all(other, flood.sill, flood.head, kSolid) ? "" : "the wall does not go on beside a jamb";
+    }
+    if (flood.faces.insert(other).second) {
+      flood.open.push_back(other);
+      return inside(opening, complex_.centroid(static_cast<std::size_t>(other)))
+                 ? ""
+                 : "the wall's faces do not bound it";
+    }
+    return "";
+  }
+
   bool all(std::int32_t face, std::size_t sill, std::size_t head, std::uint8_t label) const {
     for (std::size_t k = sill; k < head; ++k) {
       if (label_[complex_.cell(static_cast<std::size_t>(face), k)] != label) {
