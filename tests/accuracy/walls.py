@@ -3,7 +3,7 @@
 """How exact are walls and heights, and do the stated standard deviations hold? The whole pipeline with default parameters on
 random buildings of every family, against their exact truth.
 
-  walls.py [--build DIR] [--work DIR] [--json FILE] [--seeds N] [--only NAME …] [--jobs N] [--keep]
+  walls.py [--build DIR] [--work DIR] [--json FILE] [--seeds N] [--only NAME …] [--keep]
 
 Per row (sampling, noise): refined wall lines, their offset error at the middle in units of sigma_offset_m (share within the 68 %
 and the 95 % interval), the same of the angle, bias and rms of wall thickness in the model, of floors and ceilings at the middle
