@@ -198,34 +198,40 @@ class Opener {
   /// Empties the layers [sill, head) of the faces and closes [head, top).
   std::string fit(const std::set<std::int32_t>& faces, std::size_t sill, std::size_t head, std::size_t top,
                   Passage& passage) {
-    const std::vector<std::uint8_t> before = label_;
-    std::vector<std::size_t> lintel;
+    std::vector<std::size_t> touched, flipped;
     for (const std::int32_t face : faces) {
       for (std::size_t k = sill; k < top; ++k) {
         const std::size_t cell = complex_.cell(static_cast<std::size_t>(face), k);
         if (label_[cell] == kEmpty && closed_[cell] == kSolid) {
-          label_ = before;
           return "it overlaps another opening";
         }
-        const std::uint8_t wanted = k < head ? kEmpty : kSolid;
-        if (label_[cell] != wanted) {
-          const double volume = complex_.area(static_cast<std::size_t>(face)) * complex_.height(k);
-          passage.volume_m3 += k < head ? volume : -volume;
-          label_[cell] = wanted;
+        const bool opens = k < head;
+        touched.push_back(cell);
+        if (opens) {
+          passage.cells.push_back(cell);
         }
-        (k < head ? passage.cells : lintel).push_back(cell);
+        if (label_[cell] != (opens ? kEmpty : kSolid)) {
+          const double volume = complex_.area(static_cast<std::size_t>(face)) * complex_.height(k);
+          passage.volume_m3 += opens ? volume : -volume;
+          flipped.push_back(cell);
+        }
       }
     }
+    flip(flipped);
     if (!is_manifold(faces, sill, top)) {
-      label_ = before;
+      flip(flipped);
       return "surfaces would touch in an edge or a corner";
     }
-    for (const auto* cells : {&passage.cells, &lintel}) {
-      for (const std::size_t cell : *cells) {
-        closed_[cell] = kSolid;
-      }
+    for (const std::size_t cell : touched) {
+      closed_[cell] = kSolid;
     }
     return "";
+  }
+
+  void flip(const std::vector<std::size_t>& cells) {
+    for (const std::size_t cell : cells) {
+      label_[cell] = label_[cell] == kEmpty ? kSolid : kEmpty;
+    }
   }
 
   bool is_manifold(const std::set<std::int32_t>& faces, std::size_t sill, std::size_t top) const {

@@ -137,6 +137,7 @@ class Walker {
   std::vector<std::size_t> start_, open_;  // layers
 };
 
+/// Marks what is missing between two columns of a layer that stand at most max_gap_m apart.
 void mark_gaps(RoomWall& wall, double max_gap_m) {
   const auto most = static_cast<std::size_t>(std::floor(max_gap_m / wall.step_m));
   for (std::size_t k = 0; k < wall.layers; ++k) {

@@ -14,13 +14,13 @@ double LogHistogram::edge(std::size_t bin) {
   return std::bit_cast<float>((static_cast<std::uint32_t>(bin) + kFirstBin) << kDroppedBits);
 }
 
-double LogHistogram::quantile(double share) const {
-  const double wanted = share * static_cast<double>(total_);
+double LogHistogram::median() const {
   std::uint64_t below = 0;
   for (std::size_t i = 0; i < bins_.size(); ++i) {
-    if (bins_[i] > 0 && static_cast<double>(below + bins_[i]) >= wanted) {
-      const double inside = (wanted - static_cast<double>(below)) / static_cast<double>(bins_[i]);
-      return edge(i) + inside * (edge(i + 1) - edge(i));
+    if (2 * (below + bins_[i]) >= total_ && bins_[i] > 0) {
+      const double share =
+          (0.5 * static_cast<double>(total_) - static_cast<double>(below)) / static_cast<double>(bins_[i]);
+      return edge(i) + share * (edge(i + 1) - edge(i));
     }
     below += bins_[i];
   }

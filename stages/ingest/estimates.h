@@ -8,7 +8,7 @@
 namespace roomcut {
 
 /// Counts of a positive quantity in bins of 1 to 1.6 % (64 equal parts of each octave, straight from the bits
-/// of a float), for quantiles that do not depend on order and needs no memory per value. Values outside
+/// of a float), for a median that does not depend on order and needs no memory per value. Values outside
 /// 2^-24 … 2^17 fall into the end bins.
 class LogHistogram {
  public:
@@ -21,9 +21,8 @@ class LogHistogram {
   }
   void add(const LogHistogram& other);
   std::uint64_t total() const { return total_; }
-  /// The value that this share of the values is below, interpolated inside its bin; 0 when nothing was added.
-  double quantile(double share) const;
-  double median() const { return quantile(0.5); }
+  /// The median, interpolated inside its bin; 0 when nothing was added.
+  double median() const;
   /// The counts in the bins below the limit, alone.
   LogHistogram below(double limit) const;
 
