@@ -11,28 +11,22 @@ struct Exit {
   double distance = std::numeric_limits<double>::infinity();
 };
 
-/// Where the way from `start` to `to`, which entered the face by edge `came_by`, leaves it again.
-Exit exit_of(const CellComplex& complex, std::size_t face, const Vec2& start, const Vec2& to,
-             std::int32_t came_by) {
-  Exit exit;
+/// Where the way from `start` to `to` leaves the face: by the side whose ends lie right and left of it. Of
+/// sides on one line the distances are equal; their ends tell them apart.
+Exit exit_of(const CellComplex& complex, std::size_t face, const Vec2& start, const Vec2& to) {
   const auto begin = static_cast<std::size_t>(complex.face_offset[face]);
   const auto end = static_cast<std::size_t>(complex.face_offset[face + 1]);
   for (std::size_t i = begin; i < end; ++i) {
     const std::size_t next = i + 1 < end ? i + 1 : begin;
-    const Vec2& a = complex.vertices[static_cast<std::size_t>(complex.face_vertex[i])];
-    const Vec2 along =
-        (complex.vertices[static_cast<std::size_t>(complex.face_vertex[next])] - a).normalized();
-    const Vec2 outward(along.y(), -along.x());
-    const double speed = outward.dot(to);
-    if (complex.face_edge[i] == came_by || speed <= 1e-9) {
-      continue;
-    }
-    const double distance = outward.dot(a - start) / speed;
-    if (distance < exit.distance) {
-      exit = {complex.face_edge[i], distance};
+    const Vec2 a = complex.vertices[static_cast<std::size_t>(complex.face_vertex[i])] - start;
+    const Vec2 b = complex.vertices[static_cast<std::size_t>(complex.face_vertex[next])] - start;
+    const double right = to.x() * a.y() - to.y() * a.x();
+    const double left = to.x() * b.y() - to.y() * b.x();
+    if (right <= 0 && left > 0) {
+      return {complex.face_edge[i], (a + right / (right - left) * (b - a)).dot(to)};
     }
   }
-  return exit;
+  return {};
 }
 
 }  // namespace
@@ -45,10 +39,9 @@ std::int32_t walk_beside(const CellComplex& complex, std::size_t edge, bool left
   const Vec2 start = a + 0.5 * along;
   const Vec2 to = (left ? 1 : -1) * Vec2(-along.y(), along.x()).normalized();
   std::int32_t face = left ? e.left : e.right;
-  auto came_by = static_cast<std::int32_t>(edge);
   // Every step crosses another edge; rounding at a sliver may not send the walk around for ever.
   for (std::size_t step = 0; face >= 0 && step < complex.edges.size(); ++step) {
-    const Exit exit = exit_of(complex, static_cast<std::size_t>(face), start, to, came_by);
+    const Exit exit = exit_of(complex, static_cast<std::size_t>(face), start, to);
     if (exit.edge < 0 || exit.distance >= distance_m) {
       return face;
     }
@@ -58,7 +51,6 @@ std::int32_t walk_beside(const CellComplex& complex, std::size_t edge, bool left
       crossed(other, from_left);
     }
     face = from_left ? complex.edges[other].right : complex.edges[other].left;
-    came_by = exit.edge;
   }
   return face;
 }

@@ -49,26 +49,34 @@ FaceWalk::FaceWalk(const CellComplex& complex, const FaceWeights& weights)
       const bool is_left = edge.left == static_cast<std::int32_t>(f);
       const double nx = along.y();
       const double ny = -along.x();
-      sides_.push_back({nx, ny, nx * a.x() + ny * a.y(), e, is_left ? edge.right : edge.left, is_left});
+      sides_.push_back(
+          {a.x(), a.y(), nx, ny, nx * a.x() + ny * a.y(), e, is_left ? edge.right : edge.left, is_left});
     }
   }
 }
 
-/// Where the ray leaves the face sideways; not by the edge that it came in by.
-inline FaceWalk::Exit FaceWalk::side_exit(const Ray& ray, std::size_t face, std::int32_t came_by) const {
-  Exit exit;
-  for (std::int64_t i = complex_.face_offset[face]; i < complex_.face_offset[face + 1]; ++i) {
-    const Side& side = sides_[static_cast<std::size_t>(i)];
-    const double speed = side.nx * ray.direction.x() + side.ny * ray.direction.y();
-    if (speed <= kStill || side.edge == came_by) {
-      continue;
+/// Where the ray leaves the face sideways: by the side whose ends lie right and left of it. Corners in the
+/// middle of a straight side make that exact where distances to the sides' lines are equal, and both faces at
+/// an edge see its ends on the same sides.
+inline FaceWalk::Exit FaceWalk::side_exit(const Ray& ray, std::size_t face) const {
+  const auto begin = static_cast<std::size_t>(complex_.face_offset[face]);
+  const auto end = static_cast<std::size_t>(complex_.face_offset[face + 1]);
+  const double dx = ray.direction.x();
+  const double dy = ray.direction.y();
+  const auto is_left = [&](const Side& side) {
+    return dx * (side.ay - ray.origin.y()) - dy * (side.ax - ray.origin.x()) > 0;
+  };
+  bool from_left = is_left(sides_[end - 1]);
+  for (std::size_t i = begin; i < end; ++i) {
+    const bool to_left = is_left(sides_[i]);
+    if (!from_left && to_left) {
+      const Side& side = sides_[i > begin ? i - 1 : end - 1];
+      const double speed = side.nx * dx + side.ny * dy;
+      return {&side, (side.d - side.nx * ray.origin.x() - side.ny * ray.origin.y()) / speed};
     }
-    const double at = (side.d - side.nx * ray.origin.x() - side.ny * ray.origin.y()) / speed;
-    if (at < exit.at) {
-      exit = {&side, at};
-    }
+    from_left = to_left;
   }
-  return exit;
+  return {};  // straight up or down
 }
 
 /// Where it leaves the layer; infinity for a level ray.
@@ -104,10 +112,9 @@ void FaceWalk::follow(const Ray& ray, std::vector<Crossing>& crossings, double l
   std::size_t layer = ray.layer;
   double now = 0;
   double left = 1;  // of the ray
-  std::int32_t came_by = -1;
   // Every step crosses an edge or a level; rounding at a sliver may not send a ray around for ever.
   for (std::size_t step = 0; step < complex_.edges.size() + complex_.levels.size(); ++step) {
-    const Exit exit = side_exit(ray, face, came_by);
+    const Exit exit = side_exit(ray, face);
     const double level_at = level_exit(ray, layer);
     const double next = std::min(exit.at, level_at);
     if (next > limit_m || next == std::numeric_limits<double>::infinity()) {
@@ -120,7 +127,6 @@ void FaceWalk::follow(const Ray& ray, std::vector<Crossing>& crossings, double l
         return;
       }
       face = static_cast<std::size_t>(exit.side->neighbour);
-      came_by = exit.side->edge;
     } else {
       crossings.push_back(through_level(up, face, layer, now));
       if (up ? layer + 1 == complex_.layers() : layer == 0) {

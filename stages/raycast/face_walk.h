@@ -30,7 +30,7 @@ struct Ray {
 };
 
 /// Follows rays from cell to cell through the complex. No search structure: a convex cell is left by the
-/// nearest of its sides, so the crossings come sorted. Steps per ray: the cells it passes.
+/// one side whose ends lie on both sides of the ray, so the crossings come sorted. Steps per ray: the cells it passes.
 class FaceWalk {
  public:
   /// Both must outlive the walk.
@@ -46,6 +46,7 @@ class FaceWalk {
 
  private:
   struct Side {
+    double ax, ay;     // its first corner
     double nx, ny, d;  // outward: nx x + ny y = d
     std::int32_t edge;
     std::int32_t neighbour;  // -1 = beyond the bounding box
@@ -56,7 +57,7 @@ class FaceWalk {
     const Side* side = nullptr;  // null when the ray runs straight up or down
     double at = std::numeric_limits<double>::infinity();
   };
-  Exit side_exit(const Ray& ray, std::size_t face, std::int32_t came_by) const;
+  Exit side_exit(const Ray& ray, std::size_t face) const;
   double level_exit(const Ray& ray, std::size_t layer) const;
   Crossing through_side(const Side& side, std::size_t face, std::size_t layer, double at) const;
   Crossing through_level(bool up, std::size_t face, std::size_t layer, double at) const;

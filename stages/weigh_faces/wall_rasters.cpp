@@ -156,13 +156,13 @@ void WallRasters::weigh_coverage(FaceWeights& weights) const {
 
 double WallRasters::strip(const SparseCounts& counts, const Raster& raster, Divisions::Range columns,
                           std::size_t level) const {
-  double seen = 0;
+  int seen = 0;
   for (int c = columns.begin; c < columns.end; ++c) {
     const std::size_t i =
         (raster.first_column + static_cast<std::size_t>(c)) * complex_.levels.size() + level;
     seen += counts.at(i) > 0 ? 1 : 0;
   }
-  return seen;
+  return static_cast<double>(seen) / std::max(1, columns.end - columns.begin);
 }
 
 void WallRasters::weigh_sides(FaceWeights& weights) const {
@@ -178,10 +178,10 @@ void WallRasters::weigh_sides(FaceWeights& weights) const {
       const bool left_is_plus = complex_.lines[line].line.direction().dot(along) < 0;
       const Divisions::Range columns = columns_of(edge, raster);
       for (std::size_t k = 0; k < complex_.layers(); ++k) {
-        StripCounts strips;
+        StripShares strips;
         for (const std::size_t level : {k, k + 1}) {
-          strips.left += strip(left_is_plus ? plus_ : minus_, raster, columns, level);
-          strips.right += strip(left_is_plus ? minus_ : plus_, raster, columns, level);
+          strips.left += 0.5 * strip(left_is_plus ? plus_ : minus_, raster, columns, level);
+          strips.right += 0.5 * strip(left_is_plus ? minus_ : plus_, raster, columns, level);
         }
         const double left = left_probability(complex_, weights, edge, k, strips, tolerances_.beside_low);
         const std::size_t face = complex_.wall_face(edge, k);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages/weigh_faces/wall_sides.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -10,35 +11,63 @@ namespace roomcut {
 namespace {
 
 constexpr double kSeen = 0.15;      // coverage of a floor or ceiling on either side: enough to ask
+constexpr double kEnough = 0.75;    // coverage beyond which no further floor or ceiling is asked
 constexpr double kContinues = 0.3;  // coverage with which a wall goes on into the next layer
 constexpr double kPrior = 0.1;      // coverage below which neither side is believed
 constexpr double kLevelWeight = 5;  // log-odds of a floor that is whole on one side and missing on the other
 constexpr double kStripWeight = 5;  // the same for the strips
-constexpr double kStripPrior = 2;   // columns
+
+}  // namespace
+
+namespace {
+
+/// What floors, or ceilings, say of the two sides of a wall, from the nearest level on: as far as nothing
+/// nearer was seen. A door's threshold or head inside the wall is a floor or ceiling too, of a part of it.
+class Sides {
+ public:
+  /// Shares of the wall's sides that a level covers.
+  void add(double left, double right) {
+    left_ += open_ * left;
+    right_ += open_ * right;
+    open_ *= std::max(0.0, 1 - std::max(left, right) / kEnough);
+  }
+  bool closed() const { return open_ <= 0; }
+  double left() const { return left_; }
+  double right() const { return right_; }
+
+ private:
+  double left_ = 0, right_ = 0;
+  double open_ = 1;
+};
 
 }  // namespace
 
 double left_probability(const CellComplex& complex, const FaceWeights& weights, std::size_t edge,
-                        std::size_t layer, const StripCounts& strips, double beside_m) {
+                        std::size_t layer, const StripShares& strips, double beside_m) {
   const std::int32_t left_face = walk_beside(complex, edge, true, beside_m);
   const std::int32_t right_face = walk_beside(complex, edge, false, beside_m);
-  double score = kStripWeight * (strips.left - strips.right) / (strips.left + strips.right + kStripPrior);
-  const auto ask = [&](const std::vector<float>& kind, std::size_t level) {
-    const auto on = [&](std::int32_t face) {
-      return face < 0 ? 0.0 : kind[complex.level_face(static_cast<std::size_t>(face), level)];
-    };
-    const double left = on(left_face);
-    const double right = on(right_face);
-    score += left + right > kSeen ? kLevelWeight * (left - right) / (left + right + kPrior) : 0;
-    return left + right > kSeen;
-  };
   const auto goes_on = [&](std::size_t k) {
     return weights.wall_omega[complex.wall_face(edge, k)] > kContinues;
   };
-  for (std::size_t l = layer; !ask(weights.level_floor, l) && l > 0 && goes_on(l - 1); --l) {
-  }
-  for (std::size_t l = layer + 1; !ask(weights.level_ceiling, l) && l < complex.layers() && goes_on(l); ++l) {
-  }
+  double score = kStripWeight * (strips.left - strips.right);
+  const auto look = [&](const std::vector<float>& kind, bool up) {
+    const auto on = [&](std::int32_t face, std::size_t level) {
+      return face < 0 ? 0.0 : kind[complex.level_face(static_cast<std::size_t>(face), level)];
+    };
+    Sides sides;
+    for (std::size_t k = layer;; k = up ? k + 1 : k - 1) {
+      const std::size_t level = up ? k + 1 : k;
+      sides.add(on(left_face, level), on(right_face, level));
+      const bool at_end = up ? level == complex.layers() : level == 0;
+      if (sides.closed() || at_end || !goes_on(up ? k + 1 : k - 1)) {
+        break;
+      }
+    }
+    const double seen = sides.left() + sides.right();
+    score += seen > kSeen ? kLevelWeight * (sides.left() - sides.right()) / (seen + kPrior) : 0;
+  };
+  look(weights.level_floor, false);
+  look(weights.level_ceiling, true);
   return 1 / (1 + std::exp(-score));
 }
 

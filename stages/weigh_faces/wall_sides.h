@@ -7,17 +7,17 @@
 
 namespace roomcut {
 
-/// Columns of a wall face along which floor or ceiling reaches the wall from its left and its right.
-struct StripCounts {
+/// Shares of a wall face's length along which floor and ceiling reach it from its left and its right, 0 … 1.
+struct StripShares {
   double left = 0, right = 0;
 };
 
 /// Probability that the empty side of a wall face is its left one. A wall stands where a floor and a ceiling
-/// end: asked are the faces of the plan on both sides, at the nearest floor below and the nearest ceiling
-/// above as far as the wall goes on, `beside_m` beside the wall (slivers between nearly equal
-/// lines have no floor of their own), and the strips right beside it. Needs
-/// wall_omega, level_floor and level_ceiling. No evidence: 1/2.
+/// end: asked are the faces of the plan on both sides, `beside_m` beside the wall (slivers between nearly
+/// equal lines have no floor of their own), at the nearest levels below and above and, as far as these say
+/// nothing and the wall goes on, at the next ones; and the strips right beside it. Needs wall_omega,
+/// level_floor and level_ceiling. No evidence: 1/2.
 double left_probability(const CellComplex& complex, const FaceWeights& weights, std::size_t edge,
-                        std::size_t layer, const StripCounts& strips, double beside_m);
+                        std::size_t layer, const StripShares& strips, double beside_m);
 
 }  // namespace roomcut

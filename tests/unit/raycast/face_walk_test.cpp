@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/cells/three_faces.h"
 #include "tests/unit/raycast/room_weights.h"
 #include "tests/unit/weigh_faces/grid_complex.h"
 
@@ -52,6 +53,20 @@ TEST(FaceWalk, GoesUpAndDownThroughLevels) {
   walk.follow({{1, 1, -0.5}, {0, 0, 1}, 4, 0}, crossings);
   ASSERT_EQ(crossings.size(), 3U);
   EXPECT_EQ(crossings[0].back, 1) << "floor from below";
+}
+
+TEST(FaceWalk, LeavesAStraightSideByThePartThatItMeets) {
+  const CellComplex complex = three_faces();  // face 0 is left by one side, of which two faces are beyond
+  const FaceWeights weights = no_weights(complex);
+  const FaceWalk walk(complex, weights);
+  std::vector<Crossing> crossings;
+  for (int i = 1; i < 20; ++i) {
+    const double y = i == 10 ? 1.001 : 0.1 * i;
+    walk.follow({{0.5, y, 1}, {1, 0, 0}, 0, 0}, crossings);
+    ASSERT_EQ(crossings.size(), 2U) << y;
+    EXPECT_NEAR(crossings[0].distance, 0.5, 1e-12) << y;
+    EXPECT_EQ(crossings[1].cell, complex.cell(y < 1 ? 1 : 2, 0)) << y;
+  }
 }
 
 TEST(FaceWalk, PointsLieInTheirFaceAndSpreadOverIt) {

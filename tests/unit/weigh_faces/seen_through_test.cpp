@@ -5,6 +5,7 @@
 
 #include "common/cells/plan_walk.h"
 #include "tests/unit/raycast/room_weights.h"
+#include "tests/unit/cells/three_faces.h"
 #include "tests/unit/weigh_faces/grid_complex.h"
 
 namespace roomcut {
@@ -48,6 +49,17 @@ TEST(DiscountSeenThrough, AWallAsDenseAsTheOneInFrontStays) {
   facade.see(facade.outer, 0.5F, true, 1000);
   discount_seen_through(facade.complex, facade.weights);
   EXPECT_EQ(facade.weights.wall_omega[facade.outer], 0.5F);
+}
+
+TEST(WalkBeside, LeavesAStraightSideByThePartThatItMeets) {
+  // The left side of the box, looking right: the way at y = 1.2 meets the upper part of the side x = 1.
+  CellComplex complex = three_faces();
+  complex.vertices[0].y() = 0.4;
+  complex.vertices[1].y() = 0.4;
+  const std::size_t left_side = 4;  // from (0, 2) to (0, 0.4)
+  EXPECT_EQ(walk_beside(complex, left_side, true, 2), 2);
+  complex.vertices[6].y() = 1.2;  // and now at y = 0.8 the lower one
+  EXPECT_EQ(walk_beside(complex, left_side, true, 2), 1);
 }
 
 TEST(WalkBeside, PassesSliversUpToTheDistance) {

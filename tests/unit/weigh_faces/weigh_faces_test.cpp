@@ -88,6 +88,24 @@ TEST(WeighFaces, ThinWallFacesTurnTheirBacksToEachOther) {
   }
 }
 
+TEST(WeighFaces, ADoorsHeadAndThresholdDoNotTurnItsWall) {
+  // The west room lies lower; a ceiling elsewhere is as high as the door.
+  const TwoRooms scene(0.1, {-0.3, 0, 0.2, 2.05, 2.6, 2.9});
+  SampledCloud cloud(400, 0.004);
+  cloud.keep = [](const Vec3& p) {
+    return p.x() > 3.9 && p.x() < 4.2 && p.y() > 1 && p.y() < 2.2 && p.z() > 0.3 && p.z() < 2.05 ? 0.0 : 1.0;
+  };
+  cloud.room(0, 4, 0, 4, 0, 2.6);
+  cloud.room(4.1, 8.1, 0, 4, 0.2, 2.6);
+  cloud.keep = nullptr;
+  cloud.flat(4, 4.1, 1, 2.2, 0.2);
+  cloud.flat(4, 4.1, 1, 2.2, 2.05);
+  const FaceWeights w = weigh(scene.complex, cloud);
+  const std::size_t west = scene.complex.wall_face(scene.west(), 2);
+  ASSERT_GT(w.wall_omega[west], 0.4);
+  EXPECT_GT(w.wall_left[west], 0.8 * w.wall_omega[west]);
+}
+
 TEST(WeighFaces, FurnitureInFrontOfAWallDoesNotTurnIt) {
   const TwoRooms scene(0.1);
   SampledCloud cloud(400, 0.004);
