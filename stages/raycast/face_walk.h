@@ -30,7 +30,8 @@ struct Ray {
 };
 
 /// Follows rays from cell to cell through the complex. No search structure: a convex cell is left by the
-/// one side whose ends lie on both sides of the ray, so the crossings come sorted. Steps per ray: the cells it passes.
+/// one side whose ends lie on both sides of the ray, so the crossings come sorted. Steps per ray: the cells
+/// it passes.
 class FaceWalk {
  public:
   /// Both must outlive the walk.

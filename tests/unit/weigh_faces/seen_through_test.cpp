@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "common/cells/plan_walk.h"
-#include "tests/unit/raycast/room_weights.h"
 #include "tests/unit/cells/three_faces.h"
+#include "tests/unit/raycast/room_weights.h"
 #include "tests/unit/weigh_faces/grid_complex.h"
 
 namespace roomcut {
