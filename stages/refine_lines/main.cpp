@@ -56,7 +56,7 @@ void body(StageRun& run, const RefineLinesParams& params) {
   const std::vector<OneSidedWall> one_sided =
       find_one_sided(cells.complex, weights, labels.label, params.one_sided_m2);
   LineRefiner refiner(lines.content, cells.complex, labels.label, cloud.header().noise_m,
-                      cloud.header().density, params, ids_of(one_sided));
+                      cloud.header().density, params, one_sided);
   if (!params.band_m) {
     run.chose("band_m", refiner.band_m(), "the larger of 6 cm and 5 x noise");
   }
@@ -71,7 +71,7 @@ void body(StageRun& run, const RefineLinesParams& params) {
                       [&](std::uint64_t points) { progress.advance(points); });
   Refinement refinement = refiner.finish();
   const double thickness = usual_thickness(cells.complex, labels.label);
-  run.count("unseen faces added", add_unseen_faces(one_sided, thickness, refinement.lines));
+  run.count("unseen faces added", add_unseen_faces(refinement.one_sided, thickness, refinement.lines));
   run.count("usual thickness of a wall", 1e3 * thickness, "mm");
   write_wall_lines(run.output("lines-out"), refinement.lines, run.provenance());
   report(run, refinement);

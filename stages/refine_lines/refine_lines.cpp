@@ -48,7 +48,7 @@ struct LineRefiner::State {
   RefineLinesParams params;
   double band, merge, apart;
   WallLines kept;                   ///< frame, box, base; no lines
-  std::set<std::string> one_sided;  ///< ids of lines that stay as long as they were
+  std::set<std::string> one_sided;  ///< ids of the lines that came with such walls
   std::vector<WallLine> walls;      ///< survivors, sorted by id
   std::vector<std::size_t> index;   ///< of each survivor among complex.lines, or that list's size
   std::vector<LineFaces> faces;     ///< of complex.lines
@@ -70,14 +70,14 @@ struct LineRefiner::State {
 
 LineRefiner::LineRefiner(const WallLines& lines, const CellComplex& complex,
                          const std::vector<std::uint8_t>& label, double noise_m, double density,
-                         const RefineLinesParams& params, const std::set<std::string>& kept)
+                         const RefineLinesParams& params, std::vector<OneSidedWall> one_sided)
     : state_(new State{complex,
                        params,
                        params.band_m.value_or(std::max(0.06, 5 * noise_m)),
                        params.merge_m.value_or(std::max(0.015, 1.2 * noise_m)),
                        params.split_m.value_or(std::max(0.005, 0.5 * noise_m)),
                        lines,
-                       kept,
+                       {},
                        {},
                        {},
                        {},
@@ -85,7 +85,9 @@ LineRefiner::LineRefiner(const WallLines& lines, const CellComplex& complex,
                        {}}) {
   State& s = *state_;
   s.kept.lines.clear();
-  s.faces = find_line_faces(complex, label, params.bin_m);
+  s.faces = find_line_faces(complex, label, params.bin_m, one_sided);
+  s.one_sided = ids_of(one_sided);
+  s.result.one_sided = std::move(one_sided);
   std::map<std::string, std::size_t> by_id;
   for (std::size_t i = 0; i < complex.lines.size(); ++i) {
     by_id.emplace(complex.lines[i].wall_id, i);
@@ -97,7 +99,7 @@ LineRefiner::LineRefiner(const WallLines& lines, const CellComplex& complex,
     const std::size_t i = found == by_id.end() ? complex.lines.size() : found->second;
     const double area = i < complex.lines.size() ? s.faces[i].area_m2 : 0;
     any_surface = any_surface || area > 0;
-    if (area < params.min_interface_m2 && !is_users(wall) && !kept.contains(wall.id)) {
+    if (area < params.min_interface_m2 && !is_users(wall) && !s.one_sided.contains(wall.id)) {
       ++s.result.dropped;
       continue;
     }
@@ -129,7 +131,7 @@ void LineRefiner::add(const CloudTile& tile) {
   state_->observer->add(tile);
 }
 
-/// Lines of the user's stay whole: they said what is one wall. So do those of walls seen from one side.
+/// Lines of the user's stay whole: they said what is one wall.
 void LineRefiner::State::split(std::vector<Item>& items) {
   std::vector<double> heights;
   std::set<std::string> ids;
@@ -141,22 +143,33 @@ void LineRefiner::State::split(std::vector<Item>& items) {
   }
   const std::size_t whole = items.size();
   for (std::size_t i = 0; i < whole; ++i) {
-    if (items[i].users || items[i].faces.empty() || one_sided.count(items[i].wall.id) > 0) {
+    if (items[i].users || items[i].faces.empty()) {
       continue;
     }
     std::vector<LinePart> parts =
         split_line(items[i].faces.front(), items[i].observations, heights, prior_of(items[i]), apart);
+    if (parts.size() == 1) {
+      continue;
+    }
+    const std::string id = items[i].wall.id;
     for (std::size_t k = parts.size(); k-- > 0;) {
       Item part = items[i];
       part.area_m2 = parts[k].faces.area_m2;
+      part.keeps_ends = false;
+      part.wall.levels = levels_of(parts[k], items[i].wall.levels);
       part.faces = {std::move(parts[k].faces)};
       part.observations = std::move(parts[k].observations);
+      for (int number = 1; k > 0 && !ids.insert(part.wall.id).second; ++number) {
+        part.wall.id = id + "." + std::to_string(number);
+      }
+      for (OneSidedWall& wall : result.one_sided) {
+        if (wall.wall_id == id && carries(part.faces.front(), wall)) {
+          wall.wall_id = part.wall.id;
+        }
+      }
       if (k == 0) {
         items[i] = std::move(part);
         break;
-      }
-      for (int number = 1; !ids.insert(part.wall.id).second; ++number) {
-        part.wall.id = items[i].wall.id + "." + std::to_string(number);
       }
       ++result.split;
       items.push_back(std::move(part));

@@ -3,25 +3,26 @@
 
 #include <cstdint>
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "common/cells/cell_complex.h"
 #include "common/cloud/cloud.h"
 #include "common/wall_lines/wall_line.h"
+#include "stages/refine_lines/one_sided.h"
 #include "stages/refine_lines/params.h"
 
 namespace roomcut {
 
 struct Refinement {
   WallLines lines;
-  int dropped = 0;  ///< detected lines that carry no surface of the first cut
-  int merged = 0;   ///< lines that went into another one
-  int split = 0;    ///< lines made of walls that were taken for a part of another line
-  int refined = 0;  ///< lines that were adjusted
-  int held = 0;     ///< lines that stayed as they came: locked, or too few observations
-  int classes = 0;  ///< groups of parallel and perpendicular walls
+  std::vector<OneSidedWall> one_sided;  ///< as given, each with the id of the line that it is on now
+  int dropped = 0;                      ///< detected lines that carry no surface of the first cut
+  int merged = 0;                       ///< lines that went into another one
+  int split = 0;                        ///< lines made of walls that were taken for a part of another line
+  int refined = 0;                      ///< lines that were adjusted
+  int held = 0;                         ///< lines that stayed as they came: locked, or too few observations
+  int classes = 0;                      ///< groups of parallel and perpendicular walls
   int observations = 0;
   std::uint64_t points = 0;                        ///< points that were observed
   double median_shift_m = 0, largest_shift_m = 0;  ///< of the refined lines, at their centres
@@ -35,11 +36,11 @@ class LineRefiner {
  public:
   /// `label` as Labels::label of `complex`, which `lines` were partitioned into; `noise_m` of the points off
   /// their plane. All are copied or consumed here, except `complex`, which must outlive the refiner. Throws
-  /// StageError(kNoWallLines) when no line carries surface. Lines of `kept` stay whatever surface they carry,
-  /// as long as they were.
+  /// StageError(kNoWallLines) when no line carries surface. Walls seen from one side are surface too, and
+  /// their lines stay however little they carry, as long as they were unless they are split.
   LineRefiner(const WallLines& lines, const CellComplex& complex, const std::vector<std::uint8_t>& label,
               double noise_m, double density, const RefineLinesParams& params,
-              const std::set<std::string>& kept = {});
+              std::vector<OneSidedWall> one_sided = {});
   ~LineRefiner();
 
   void add(const CloudTile& tile);

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <numeric>
 
 namespace roomcut {
 
@@ -172,7 +174,7 @@ std::vector<int> spread_groups(const LineFaces& faces, const std::vector<Panel>&
 /// The line's faces without those of other groups, cut to the hull of what is the group's.
 LinePart part_of(const LineFaces& faces, const std::vector<Panel>& panels, const std::vector<int>& spread,
                  int group) {
-  LinePart part{faces, {}};
+  LinePart part{faces, {}, {}};
   part.faces.area_m2 = 0;
   std::vector<std::int8_t> side(faces.side.size(), 0);
   for (const Panel& panel : panels) {
@@ -194,6 +196,18 @@ LinePart part_of(const LineFaces& faces, const std::vector<Panel>& panels, const
   part.faces.t1 = faces.t0 + static_cast<double>(last + 1) * faces.bin_m;
   part.faces.side.assign(side.begin() + static_cast<std::ptrdiff_t>(first * faces.layers),
                          side.begin() + static_cast<std::ptrdiff_t>((last + 1) * faces.layers));
+  for (std::size_t layer = 0; layer < faces.layers; ++layer) {
+    bool own = false;
+    bool others = false;
+    for (std::size_t bin = 0; bin < faces.bins; ++bin) {
+      const int found = spread[bin * faces.layers + layer];
+      own = own || found == group;
+      others = others || (found >= 0 && found != group);
+    }
+    if (own || !others) {
+      part.layers.push_back(static_cast<int>(layer));
+    }
+  }
   std::sort(part.observations.begin(), part.observations.end(),
             [](const Observation& a, const Observation& b) {
               return std::pair(a.zone, a.bin) < std::pair(b.zone, b.bin);
@@ -217,7 +231,9 @@ std::vector<LinePart> split_line(const LineFaces& faces, const std::vector<Obser
   const std::vector<std::size_t> order = measure(faces.line, prior, panels);
   const int groups = order.empty() ? 1 : group_panels(panels, order, apart_m);
   if (groups < 2) {
-    return {{faces, observations}};
+    LinePart whole{faces, observations, std::vector<int>(faces.layers)};
+    std::iota(whole.layers.begin(), whole.layers.end(), 0);
+    return {std::move(whole)};
   }
   place_others(faces, panels);
   const std::vector<int> spread = spread_groups(faces, panels);
@@ -228,6 +244,17 @@ std::vector<LinePart> split_line(const LineFaces& faces, const std::vector<Obser
   std::stable_sort(parts.begin(), parts.end(),
                    [](const LinePart& a, const LinePart& b) { return a.faces.area_m2 > b.faces.area_m2; });
   return parts;
+}
+
+std::optional<std::vector<int>> levels_of(const LinePart& part,
+                                          const std::optional<std::vector<int>>& whole) {
+  if (!whole) {
+    return part.layers.size() < part.faces.layers ? std::optional(part.layers) : std::nullopt;
+  }
+  std::vector<int> both;
+  std::set_intersection(whole->begin(), whole->end(), part.layers.begin(), part.layers.end(),
+                        std::back_inserter(both));
+  return both.empty() ? whole : both;
 }
 
 }  // namespace roomcut

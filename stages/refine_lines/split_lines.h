@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "stages/refine_lines/line_faces.h"
@@ -12,6 +13,7 @@ namespace roomcut {
 struct LinePart {
   LineFaces faces;
   std::vector<Observation> observations;
+  std::vector<int> layers;  ///< all but those in which every panel is of another part; ascending
 };
 
 /// Detection takes walls that lie in a row, or above each other, for one line when they differ by a
@@ -23,5 +25,9 @@ struct LinePart {
 std::vector<LinePart> split_line(const LineFaces& faces, const std::vector<Observation>& observations,
                                  const std::vector<double>& layer_height, const LinePrior& prior,
                                  double apart_m);
+
+/// WallLine::levels of a part of a line that had `whole`: those in which the part may carry a wall, so that
+/// it leaves no sliver beside the other part's wall in another storey. Null for all layers.
+std::optional<std::vector<int>> levels_of(const LinePart& part, const std::optional<std::vector<int>>& whole);
 
 }  // namespace roomcut

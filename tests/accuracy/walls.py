@@ -6,8 +6,8 @@ random buildings of every family, against their exact truth.
   walls.py [--build DIR] [--work DIR] [--json FILE] [--seeds N] [--only NAME …] [--keep]
 
 Per row (sampling, noise): refined wall lines, their offset error at the middle in units of sigma_offset_m (share within the 68 %
-and the 95 % interval), the same of the angle, bias and rms of wall thickness in the model, of floors and ceilings at the middle
-of the rooms, and how often the heights of levels.json hold.
+and the 95 % interval), the same of the angle, bias and rms of wall thickness in the model, and of floors and ceilings at the middle
+of the rooms (levels have no stated deviation).
 """
 import argparse
 import json
@@ -241,21 +241,6 @@ def compare_heights(truth, vertex, faces):
     return errors, missing
 
 
-def compare_levels(path, truth, origin_z):
-    """Refined levels against the heights of the truth, where one height of the truth is near."""
-    if not os.path.exists(path):
-        return []
-    with open(path, encoding="utf-8") as text:
-        levels = json.load(text)["levels"]
-    true = sorted({z for room in truth["rooms"] for z in (room["floor"], room["ceiling"])})
-    result = []
-    for level in levels:
-        near = [z for z in true if abs(z - level["z_m"] - origin_z) < 0.05]
-        if len(near) == 1 and level["sigma_z_m"]:
-            result.append({"error": level["z_m"] + origin_z - near[0], "sigma": level["sigma_z_m"]})
-    return result
-
-
 def measure(folder, build, family, seed, row):
     make_scene(folder, build, family, seed, row)
     work = os.path.join(folder, "work")
@@ -277,9 +262,8 @@ def measure(folder, build, family, seed, row):
             slices[z] = slice_walls(vertex, faces, z)
         walls.append({"truth": wall["thickness"], "model": thickness(wall, slices[z])})
     errors, missing = compare_heights(truth, vertex, faces)
-    levels = compare_levels(os.path.join(work, "80_refine_lines", "levels.json"), truth, origin[2])
     return {"scene": f"{family}_{seed}", "lines": [line for line in found if line], "spurious": sum(not line for line in found),
-            "walls": walls, "heights": errors, "heights_missing": missing, "levels": levels}
+            "walls": walls, "heights": errors, "heights_missing": missing}
 
 
 def rms(values):
@@ -298,7 +282,6 @@ def summarise(scenes):
     walls = [wall for scene in scenes for wall in scene["walls"]]
     thick = [wall["model"] - wall["truth"] for wall in walls if wall["model"] is not None]
     heights = [error for scene in scenes for error in scene["heights"]]
-    levels = [level["error"] / level["sigma"] for scene in scenes for level in scene["levels"]]
     return {
         "lines": len(clean), "lines_doubled": sum(line["doubled"] for line in lines),
         "lines_not_refined": sum(not line["refined"] for line in lines), "lines_spurious": sum(s["spurious"] for s in scenes),
@@ -313,7 +296,6 @@ def summarise(scenes):
         "heights": len(heights), "heights_missing": sum(s["heights_missing"] for s in scenes),
         "height_bias_mm": 1e3 * statistics.fmean(heights), "height_rms_mm": 1e3 * rms(heights),
         "height_worst_mm": 1e3 * max(map(abs, heights)),
-        "levels": len(levels), "level_within_68": share(levels, 0.994), "level_within_95": share(levels, 1.96),
     }
 
 
@@ -322,8 +304,7 @@ COLUMNS = (("lines", "lines", "{:.0f}"), ("doubled", "lines_doubled", "{:.0f}"),
            ("angle 68", "angle_within_68", "{:.1f}"), ("95", "angle_within_95", "{:.1f}"), ("walls", "walls", "{:.0f}"),
            ("lost", "walls_missing", "{:.0f}"), ("thick: bias", "thickness_bias_mm", "{:.2f}"), ("rms", "thickness_rms_mm", "{:.2f}"),
            ("heights", "heights", "{:.0f}"), ("lost", "heights_missing", "{:.0f}"), ("bias", "height_bias_mm", "{:.2f}"),
-           ("rms", "height_rms_mm", "{:.2f}"), ("levels", "levels", "{:.0f}"), ("68 %", "level_within_68", "{:.1f}"),
-           ("95 %", "level_within_95", "{:.1f}"))
+           ("rms", "height_rms_mm", "{:.2f}"))
 
 
 def main():

@@ -77,6 +77,7 @@ TEST(SplitLines, WallsInARowThatDifferByEightMillimetresBecomeTwo) {
     EXPECT_EQ(part.faces.side.size(), part.faces.bins * 3);
     EXPECT_EQ(part.faces.side_at(3, 0), 1);
     EXPECT_EQ(part.faces.side_at(3, 1), 0);
+    EXPECT_EQ(levels_of(part, std::nullopt), std::nullopt) << "both are walls of both storeys";
   }
 }
 
@@ -90,6 +91,10 @@ TEST(SplitLines, WallsAboveEachOtherBecomeTwoThatKeepTheirOwnStorey) {
   EXPECT_EQ(parts[0].faces.side_at(3, 2), 0);
   EXPECT_EQ(parts[1].faces.side_at(3, 0), 0);
   EXPECT_EQ(parts[1].faces.side_at(3, 2), 1);
+  EXPECT_EQ(parts[0].layers, (std::vector<int>{0, 1}));  // no wall in the slab: it could be either's
+  EXPECT_EQ(parts[1].layers, (std::vector<int>{1, 2}));
+  EXPECT_EQ(levels_of(parts[0], std::nullopt), parts[0].layers);
+  EXPECT_EQ(levels_of(parts[0], std::vector<int>{0, 2}), std::vector<int>{0});
 }
 
 TEST(SplitLines, ALineThatIsOnlyTurnedIsNotSplit) {
