@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 
+#include "stages/slice/furniture.h"
 #include "stages/slice/plan_mask.h"
 
 namespace roomcut {
@@ -184,11 +185,11 @@ bool is_floor(const Candidate& candidate, const HeightSurvey& survey, PlanMask p
 
 /// Whether all large surfaces of a candidate are furniture on a larger floor among the others.
 bool only_furniture(const Candidate& candidate, const std::vector<Candidate>& all, const CellIndex& index,
-                    double raster_m, double smallest) {
+                    const HeightSurvey& survey, double smallest) {
   const auto stands_on = [&](const SurfaceComponent& surface) {
     return std::any_of(all.begin(), all.end(), [&](const Candidate& other) {
       return other.floor && other.level.area_m2 > candidate.level.area_m2 &&
-             is_furniture(surface, other.level, index, raster_m);
+             is_furniture(surface, other.level, index, survey);
     });
   };
   return std::all_of(
@@ -305,42 +306,13 @@ std::vector<Level> find_levels(const HeightSurvey& survey, const std::vector<Sur
   std::vector<Level> levels;
   for (const Candidate& candidate : candidates) {
     if (candidate.level.component_m2 >= smallest &&
-        !only_furniture(candidate, candidates, index, rules.raster_m, smallest)) {
+        !only_furniture(candidate, candidates, index, survey, smallest)) {
       levels.push_back(candidate.level);
     } else if (rejected != nullptr) {
       rejected->push_back(candidate.level);
     }
   }
   return levels;
-}
-
-bool is_furniture(const SurfaceComponent& surface, const Level& floor, const CellIndex& all,
-                  double raster_m) {
-  constexpr double kLargest = 12, kLowest = 0.25, kHighest = 1.3, kWidest = 1.6, kOpen = 0.4;
-  constexpr double kOverFloor = 0.25;
-  double z = 0;
-  for (const SurfaceCell& cell : surface.cells) z += cell.z / static_cast<double>(surface.cells.size());
-  if (z < floor.z + kLowest || z > floor.z + kHighest) return false;
-  const CellIndex own(surface.cells);
-  const auto radius = std::max(2, static_cast<std::int32_t>(std::ceil(0.35 / raster_m)));
-  std::size_t border = 0, open = 0, over_floor = 0;
-  for (const SurfaceCell& cell : surface.cells) {
-    if (all.any_near(cell.ix, cell.iy, 0, floor.lo, floor.hi)) ++over_floor;
-    const std::int32_t step = reach_of(cell, raster_m);
-    const auto inside = [&](std::int32_t dx, std::int32_t dy) {
-      return own.any_near(cell.ix + dx * step, cell.iy + dy * step, step - 1, -1e9, 1e9);
-    };
-    if (inside(1, 0) && inside(-1, 0) && inside(0, 1) && inside(0, -1)) continue;
-    ++border;
-    if (all.any_near(cell.ix, cell.iy, radius, floor.lo, floor.hi)) ++open;
-  }
-  const auto share = [](std::size_t part, std::size_t whole) {
-    return static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(1, whole));
-  };
-  if (share(over_floor, surface.cells.size()) >= kOverFloor) return true;
-  const double width =
-      2 * surface.area_m2 / (static_cast<double>(std::max<std::size_t>(1, border)) * raster_m);
-  return (surface.area_m2 < kLargest || width < kWidest) && share(open, border) >= kOpen;
 }
 
 void add_caps(std::vector<Level>& levels, const HeightSurvey& survey, const std::vector<SurfaceCell>& cells,

@@ -35,12 +35,6 @@ std::vector<HeightMode> height_modes(const std::vector<SurfaceCell>& cells, cons
 std::vector<Level> find_levels(const HeightSurvey& survey, const std::vector<SurfaceCell>& cells,
                                const LevelRules& rules, std::vector<Level>* rejected = nullptr);
 
-/// Whether a surface 0.25 … 1.3 m above a floor is a table or a counter rather than a floor of its own: the
-/// lower level's floor is seen under a quarter of it; or it is smaller than 12 m^2 or narrower than 1.6 m
-/// (twice area by border), and that floor goes on beside 40 % of its border. `all` finds the cells of the
-/// whole building.
-bool is_furniture(const SurfaceComponent& surface, const Level& floor, const CellIndex& all, double raster_m);
-
 /// Adds a level where walls or sloped surfaces over the building's own footprint go on farther than `reach_m`
 /// beyond the lowest or highest level: the floor or ceiling there was not seen. Less than 1 m^2 or 2 % of all
 /// upright area does not count, and the last 1 % of what goes on may stick out.

@@ -124,6 +124,27 @@ TEST(Levels, AStageOfTwentySquareMetresIsALevel) {
   expect_heights(levels_of(cloud), {0.0, 0.8, 3.5}, 0.002);
 }
 
+TEST(Levels, TheRaisedFloorOfASmallRoomIsALevelThoughFloorsGoOnBeyondItsThinWalls) {
+  SyntheticCloud cloud;
+  cloud.room({0, 0}, {4, 10}, 0.0, 2.5);
+  cloud.room({7.3, 0}, {11, 10}, 0.0, 2.5);
+  cloud.room({4.1, 0}, {7.2, 3.5}, 0.3, 2.5);
+  cloud.room({4.1, 3.6}, {7.2, 10}, 0.0, 2.5);
+  expect_heights(levels_of(cloud), {0.0, 0.3, 2.5}, 0.002);
+}
+
+TEST(Levels, ABedInACornerIsNoneThoughNoFloorIsSeenUnderIt) {
+  SyntheticCloud cloud;
+  cloud.room({0, 0}, {4.5, 4}, 0.0, 2.5);
+  cloud.horizontal({4.6, 0}, {6.9, 2.2}, 0.5);
+  cloud.horizontal({6.9, 0}, {12, 2.2}, 0.0);
+  cloud.horizontal({4.6, 2.2}, {12, 8}, 0.0);
+  cloud.horizontal({4.6, 0}, {12, 8}, 2.5);
+  cloud.wall({4.6, 0}, {4.6, 8}, 0.0, 2.5);
+  cloud.wall({4.6, 0}, {12, 0}, 0.0, 2.5);
+  expect_heights(levels_of(cloud), {0.0, 2.5}, 0.002);
+}
+
 TEST(Levels, AFloorOverTheCeilingBelowIsNoTable) {
   SyntheticCloud cloud;
   cloud.room({0, 0}, {12, 8}, 0.0, 2.5);
