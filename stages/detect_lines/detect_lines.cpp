@@ -8,6 +8,7 @@
 
 #include "common/errors/codes.h"
 #include "common/errors/error.h"
+#include "stages/detect_lines/free_cells.h"
 #include "stages/detect_lines/merge_lines.h"
 
 namespace roomcut {
@@ -88,11 +89,11 @@ class LineSearch {
       : cells_(cells),
         rules_(rules),
         params_(params),
-        votes_(rules.centre, rules.radius_m, rules.angle_step, rules.distance_step) {
+        votes_(rules.centre, rules.radius_m, rules.angle_step, rules.distance_step),
+        free_(cells) {
     for (std::uint32_t i = 0; i < cells.size(); ++i) {
-      if (cells.boundary[i] != 0) free_.push_back(i);
+      if (cells.boundary[i] != 0) vote(i, +1);
     }
-    for (const std::uint32_t i : free_) vote(i, +1);
   }
 
   const HoughAccumulator& votes() const { return votes_; }
@@ -114,21 +115,18 @@ class LineSearch {
 
   void take_out(const CellIndices& taken) {
     for (const std::uint32_t i : taken) vote(i, -1);
-    CellIndices left;
-    left.reserve(free_.size());
-    std::set_difference(free_.begin(), free_.end(), taken.begin(), taken.end(), std::back_inserter(left));
-    free_.swap(left);
+    free_.take(taken);
   }
 
   /// The strongest support near `start` is fitted alone; other supports on the same line join it when they do
   /// not pull it. False when nothing lies there.
   bool take_line(const Line2& start, std::vector<LineCandidate>& found) {
     const double wide = rules_.fit.inlier_m + rules_.distance_step;
-    const CellIndices near = inliers(cells_, free_, start, rules_.fit, wide);
+    const CellIndices near = free_.on_line(start, rules_.fit, wide);
     if (near.empty()) return false;
     const Support seed = supports(cells_, near, start, rules_.fit).front();
     const Line2 line = fit_line(cells_, seed.cells, start, rules_.fit);
-    const CellIndices on_line = inliers(cells_, free_, line, rules_.fit, rules_.fit.inlier_m);
+    const CellIndices on_line = free_.on_line(line, rules_.fit, rules_.fit.inlier_m);
     if (on_line.empty()) return false;
     bool strongest = true;
     for (Support& support : supports(cells_, on_line, line, rules_.fit)) {
@@ -150,7 +148,7 @@ class LineSearch {
   const Rules& rules_;
   const DetectLinesParams& params_;
   HoughAccumulator votes_;
-  CellIndices free_;
+  FreeCells free_;
 };
 
 WallLine to_wall_line(const LineCandidate& candidate, const WallCells& cells, std::size_t index) {

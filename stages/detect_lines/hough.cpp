@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kVoteUnit = 2e-4;  // m; half votes stay whole numbers of 0.1 mm
 constexpr std::int32_t kSuppressed = -(1 << 30);
+constexpr std::size_t kBlock = 256;  // distances in a block
 
 }  // namespace
 
@@ -22,7 +23,9 @@ HoughAccumulator::HoughAccumulator(const Vec2& centre, double radius_m, double a
   for (std::size_t a = 0; a < angles_; ++a)
     normals_.push_back(Line2{static_cast<double>(a) * angle_step_, 0}.normal());
   votes_.assign(angles_ * distances_, 0);
+  blocks_ = (distances_ + kBlock - 1) / kBlock;
   best_.assign(angles_, Best{});
+  block_best_.assign(angles_ * blocks_, Best{});
 }
 
 void HoughAccumulator::vote(const Vec2& p, double theta, double window, double weight_m, int sign) {
@@ -39,20 +42,39 @@ void HoughAccumulator::vote(const Vec2& p, double theta, double window, double w
     row[-1] += half;
     row[0] += 2 * half;
     row[1] += half;
-    // Votes that are taken back elsewhere leave the highest bin where it was.
-    const std::size_t highest = best_[angle].distance;
-    best_[angle].stale |= half > 0 || (highest + 1 >= bin && highest <= bin + 1);
+    changed(angle, bin - 1, half > 0);
+    if ((bin - 1) / kBlock != (bin + 1) / kBlock) changed(angle, bin + 1, half > 0);
   }
+}
+
+/// Votes within two of `bin`, in its block, are more or fewer. Fewer elsewhere leave the highest bin where it
+/// was.
+void HoughAccumulator::changed(std::size_t angle, std::size_t bin, bool more) {
+  Best& block = block_best_[angle * blocks_ + bin / kBlock];
+  if (more || (block.distance + 2 >= bin && block.distance <= bin + 2)) {
+    block.stale = true;
+    best_[angle].stale = true;
+  }
+}
+
+void HoughAccumulator::find_best(std::size_t angle) {
+  const auto row = votes_.begin() + static_cast<std::ptrdiff_t>(angle * distances_);
+  const auto blocks = block_best_.begin() + static_cast<std::ptrdiff_t>(angle * blocks_);
+  for (std::size_t b = 0; b < blocks_; ++b) {
+    if (!blocks[static_cast<std::ptrdiff_t>(b)].stale) continue;
+    const auto begin = row + static_cast<std::ptrdiff_t>(b * kBlock);
+    const auto end = row + static_cast<std::ptrdiff_t>(std::min(distances_, (b + 1) * kBlock));
+    const auto highest = std::max_element(begin, end);
+    blocks[static_cast<std::ptrdiff_t>(b)] = {*highest, static_cast<std::uint32_t>(highest - row), false};
+  }
+  best_[angle] = *std::max_element(blocks, blocks + static_cast<std::ptrdiff_t>(blocks_),
+                                   [](const Best& a, const Best& b) { return a.votes < b.votes; });
 }
 
 HoughAccumulator::Peak HoughAccumulator::peak() {
   std::size_t top = 0;
   for (std::size_t a = 0; a < angles_; ++a) {
-    if (best_[a].stale) {
-      const auto row = votes_.begin() + static_cast<std::ptrdiff_t>(a * distances_);
-      const auto highest = std::max_element(row, row + static_cast<std::ptrdiff_t>(distances_));
-      best_[a] = {*highest, static_cast<std::size_t>(highest - row), false};
-    }
+    if (best_[a].stale) find_best(a);
     if (best_[a].votes > best_[top].votes) top = a;
   }
   const double theta = static_cast<double>(top) * angle_step_;
@@ -63,7 +85,7 @@ HoughAccumulator::Peak HoughAccumulator::peak() {
 
 void HoughAccumulator::suppress(const Peak& peak) {
   votes_[peak.angle * distances_ + peak.distance] = kSuppressed;
-  best_[peak.angle].stale = true;
+  changed(peak.angle, peak.distance, false);
 }
 
 double HoughAccumulator::highest_m(std::size_t angle, std::size_t begin, std::size_t end) const {

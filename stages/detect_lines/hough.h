@@ -41,18 +41,23 @@ class HoughAccumulator {
   double highest_m(std::size_t angle, std::size_t begin, std::size_t end) const;
 
  private:
+  /// The highest bin of a part of a row; looked for again only where votes changed.
   struct Best {
     std::int32_t votes = 0;
-    std::size_t distance = 0;
+    std::uint32_t distance = 0;
     bool stale = true;
   };
+  void changed(std::size_t angle, std::size_t bin, bool more);
+  void find_best(std::size_t angle);
   Vec2 centre_;
   double radius_;
   double angle_step_, distance_step_;
   std::size_t angles_, distances_;
+  std::size_t blocks_;  ///< per row
   std::vector<Vec2> normals_;
   std::vector<std::int32_t> votes_;  ///< row-major: angle, distance
-  std::vector<Best> best_;           ///< per angle; looked for again only where votes changed
+  std::vector<Best> best_;           ///< per angle
+  std::vector<Best> block_best_;  ///< row-major: angle, block of distances; a row is long in a large building
 };
 
 }  // namespace roomcut

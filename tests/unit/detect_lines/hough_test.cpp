@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <tuple>
+
 namespace roomcut {
 namespace {
 
@@ -33,6 +36,21 @@ TEST(Hough, VotesTakenBackLeaveNothing) {
   vote_wall(votes, {0.4, 2}, +1);
   vote_wall(votes, {0.4, 2}, -1);
   EXPECT_EQ(votes.peak().votes_m, 0);
+}
+
+TEST(Hough, ThePeakIsThatOfTheVotesThatAreLeft) {
+  const auto wall = [](int i) { return Line2{0.37 * i - std::floor(0.37 * i / 3.1) * 3.1, 190.0 - 5 * i}; };
+  HoughAccumulator votes({0, 0}, 200, 0.25 * kDegree, 0.01);
+  for (int i = 0; i < 40; ++i) vote_wall(votes, wall(i), +1);
+  for (int taken = 0; taken < 40; ++taken) {
+    HoughAccumulator left({0, 0}, 200, 0.25 * kDegree, 0.01);
+    for (int i = taken; i < 40; ++i) vote_wall(left, wall(i), +1);
+    const HoughAccumulator::Peak peak = votes.peak();
+    const HoughAccumulator::Peak expected = left.peak();
+    ASSERT_EQ(std::tie(peak.angle, peak.distance, peak.votes_m),
+              std::tie(expected.angle, expected.distance, expected.votes_m));
+    vote_wall(votes, wall(taken), -1);
+  }
 }
 
 TEST(Hough, ASuppressedBinIsNoPeakAgain) {
