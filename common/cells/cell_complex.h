@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -48,6 +49,11 @@ struct CellComplex {
     /// the same (one subdivision for all layers), but weigh_faces gives its faces no evidence in other
     /// layers.
     std::vector<std::int32_t> layers;
+
+    bool carries(std::size_t layer) const {
+      return layers.empty() ||
+             std::binary_search(layers.begin(), layers.end(), static_cast<std::int32_t>(layer));
+    }
   };
   std::vector<Line> lines;
 

@@ -56,6 +56,7 @@ void add_own_faces(const CellComplex& complex, const FaceWeights& weights, std::
   const std::size_t above = complex.level_face(face, layer + 1);
   evidence.front_m2 += area * (weights.level_floor[below] + weights.level_ceiling[above]);
   evidence.back_m2 += area * (weights.level_ceiling[below] + weights.level_floor[above]);
+  evidence.flat = std::max(weights.level_floor[below], weights.level_ceiling[above]);
   evidence.total_m2 += 2 * area;
 }
 

@@ -27,6 +27,7 @@ struct CellEvidence {
   double sky = 0;      ///< share of the rising rays that meet nothing
   double front_m2 = 0,
          back_m2 = 0;   ///< covered area of the cell's own faces that shows it its front, its back
+  double flat = 0;      ///< covered share of its own floor or ceiling, whichever is larger
   double total_m2 = 0;  ///< area of all its faces
   double volume_m3 = 0;
   double carved = 0;  ///< share of it that a scanner looked through; 0 when no position is known

@@ -33,16 +33,11 @@ double look(const FaceWalk& walk, const Ray& ray, std::vector<Crossing>& scratch
   return back_near(scratch);
 }
 
-/// Whether the line may carry a wall in the layer; one that may not is no other side of a wall either.
-bool carries(const CellComplex::Line& line, std::size_t layer) {
-  return line.layers.empty() ||
-         std::binary_search(line.layers.begin(), line.layers.end(), static_cast<std::int32_t>(layer));
-}
-
 float implied_wall(const CellComplex& complex, const FaceWalk& walk, std::size_t edge, std::size_t layer,
                    std::vector<Crossing>& scratch) {
   const CellComplex::Edge& e = complex.edges[edge];
-  if (e.line < 0 || !carries(complex.lines[static_cast<std::size_t>(e.line)], layer)) {
+  // A line that may not carry a wall in the layer is no other side of one either.
+  if (e.line < 0 || !complex.lines[static_cast<std::size_t>(e.line)].carries(layer)) {
     return 0;
   }
   const Vec2& a = complex.vertices[static_cast<std::size_t>(e.v0)];

@@ -3,6 +3,7 @@
 #include "common/cli/run_stage.h"
 #include "common/cloud/cloud_io.h"
 #include "common/wall_lines/wall_lines_io.h"
+#include "stages/refine_lines/carried_layers.h"
 #include "stages/refine_lines/one_sided.h"
 #include "stages/refine_lines/params.h"
 #include "stages/refine_lines/refine_lines.h"
@@ -43,7 +44,7 @@ void report(StageRun& run, const Refinement& refinement) {
 }
 
 void body(StageRun& run, const RefineLinesParams& params) {
-  const WallLinesFile lines = read_wall_lines(run.input("lines"));
+  WallLinesFile lines = read_wall_lines(run.input("lines"));
   if (!params.enabled) {
     write_wall_lines(run.output("lines-out"), lines.content, run.provenance());
     run.count("lines", static_cast<double>(lines.content.lines.size()));
@@ -55,6 +56,7 @@ void body(StageRun& run, const RefineLinesParams& params) {
   const FaceWeights weights = read_weights(run.input("weights"), cells);
   const std::vector<OneSidedWall> one_sided =
       find_one_sided(cells.complex, weights, labels.label, params.one_sided_m2);
+  restrict_to_carried_layers(cells.complex, weights, labels.label, lines.content);
   LineRefiner refiner(lines.content, cells.complex, labels.label, cloud.header().noise_m,
                       cloud.header().density, params, one_sided);
   if (!params.band_m) {

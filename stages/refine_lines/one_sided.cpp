@@ -45,17 +45,37 @@ bool left_is_plus(const CellComplex& complex, std::size_t edge) {
   return Vec2(-along.y(), along.x()).dot(normal) > 0;
 }
 
-bool closes(const WallLine& other, const Line2& line, double low, double high, bool back_is_plus) {
+/// Whether a line may carry a wall in all of these layers.
+bool carries_in(const WallLine& line, const std::vector<std::int32_t>& layers) {
+  return !line.levels || std::all_of(layers.begin(), layers.end(), [&](std::int32_t layer) {
+    return std::find(line.levels->begin(), line.levels->end(), layer) != line.levels->end();
+  });
+}
+
+/// The same wall as the refined line sees it, whose normal may point the other way: theta is in [0, pi).
+OneSidedWall on_line(OneSidedWall wall, const Line2& line) {
+  if (line.normal().dot(wall.line.normal()) < 0) {
+    wall.back_is_plus = !wall.back_is_plus;
+    std::swap(wall.t0, wall.t1);
+    wall.t0 = -wall.t0;
+    wall.t1 = -wall.t1;
+  }
+  wall.line = line;
+  return wall;
+}
+
+bool closes(const WallLine& other, const OneSidedWall& wall) {
+  const Line2& line = wall.line;
   const Line2 own = other.line();
-  if (angle_between(own.theta, line.theta) > kParallel) {
+  if (angle_between(own.theta, line.theta) > kParallel || !carries_in(other, wall.layers)) {
     return false;
   }
-  const double distance = (back_is_plus ? 1 : -1) * line.distance(other.centre());
+  const double distance = (wall.back_is_plus ? 1 : -1) * line.distance(other.centre());
   if (distance < kThinnest || distance > kThickest) {
     return false;
   }
   const auto [a, b] = std::minmax({line.along(other.a), line.along(other.b)});
-  return std::min(b, high) - std::max(a, low) > kOverlap * (high - low);
+  return std::min(b, wall.t1) - std::max(a, wall.t0) > kOverlap * (wall.t1 - wall.t0);
 }
 
 }  // namespace
@@ -83,7 +103,8 @@ std::vector<OneSidedWall> find_one_sided(const CellComplex& complex, const FaceW
       const auto [t0, t1] = interval_of(complex, edge);
       OneSidedWall& wall = walls[{line, back_is_plus}];
       if (wall.layers.empty()) {
-        wall = {complex.lines[static_cast<std::size_t>(line)].wall_id, back_is_plus, t0, t1, {}, 0};
+        const CellComplex::Line& own = complex.lines[static_cast<std::size_t>(line)];
+        wall = {own.wall_id, own.line, back_is_plus, t0, t1, {}, 0};
       }
       wall.t0 = std::min(wall.t0, t0);
       wall.t1 = std::max(wall.t1, t1);
@@ -150,22 +171,22 @@ double usual_thickness(const CellComplex& complex, const std::vector<std::uint8_
 
 int add_unseen_faces(const std::vector<OneSidedWall>& walls, double thickness_m, WallLines& lines) {
   std::vector<WallLine> added;
-  for (const OneSidedWall& wall : walls) {
+  for (const OneSidedWall& found : walls) {
     const auto seen = std::find_if(lines.lines.begin(), lines.lines.end(),
-                                   [&](const WallLine& line) { return line.id == wall.wall_id; });
+                                   [&](const WallLine& line) { return line.id == found.wall_id; });
     if (seen == lines.lines.end()) {
       continue;
     }
     const Line2 line = seen->line();
-    const bool closed = std::any_of(lines.lines.begin(), lines.lines.end(), [&](const WallLine& other) {
-      return closes(other, line, wall.t0, wall.t1, wall.back_is_plus);
-    });
+    const OneSidedWall wall = on_line(found, line);
+    const bool closed = std::any_of(lines.lines.begin(), lines.lines.end(),
+                                    [&](const WallLine& other) { return closes(other, wall); });
     if (closed) {
       continue;
     }
     const Vec2 behind = (wall.back_is_plus ? thickness_m : -thickness_m) * line.normal();
     WallLine unseen;
-    unseen.id = wall.wall_id + (wall.back_is_plus ? ".unseen+" : ".unseen-");
+    unseen.id = wall.wall_id + (found.back_is_plus ? ".unseen+" : ".unseen-");
     unseen.a = line.at(wall.t0) + behind;
     unseen.b = line.at(wall.t1) + behind;
     unseen.source = LineSource::kRefined;

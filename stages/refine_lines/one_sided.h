@@ -15,8 +15,9 @@ namespace roomcut {
 /// closes it.
 struct OneSidedWall {
   std::string wall_id;
+  Line2 line;                        ///< the complex's, to which the next three refer
   bool back_is_plus = false;         ///< the back looks to where the line's normal points
-  double t0 = 0, t1 = 0;             ///< along complex.lines[…].line [m]
+  double t0 = 0, t1 = 0;             ///< along the line [m]
   std::vector<std::int32_t> layers;  ///< ascending
   double area_m2 = 0;                ///< seen
 };
@@ -34,7 +35,7 @@ double usual_thickness(const CellComplex& complex, const std::vector<std::uint8_
 
 /// Adds for each one-sided wall whose line is still there the face that was not seen: parallel, `thickness_m`
 /// behind, in its layers only, with a note that says so and no sigma. None where another line already runs 5
-/// … 60 cm behind. Returns how many were added; `lines` stays sorted by id.
+/// … 60 cm behind in all those layers. Returns how many were added; `lines` stays sorted by id.
 int add_unseen_faces(const std::vector<OneSidedWall>& walls, double thickness_m, WallLines& lines);
 
 }  // namespace roomcut

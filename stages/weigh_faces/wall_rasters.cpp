@@ -177,13 +177,15 @@ void WallRasters::weigh_sides(FaceWeights& weights) const {
       // Left of v0 -> v1 is the minus side when the edge runs along the line's direction.
       const bool left_is_plus = complex_.lines[line].line.direction().dot(along) < 0;
       const Divisions::Range columns = columns_of(edge, raster);
+      const FacesBeside left_faces(complex_, edge, true, tolerances_.beside_low);
+      const FacesBeside right_faces(complex_, edge, false, tolerances_.beside_low);
       for (std::size_t k = 0; k < complex_.layers(); ++k) {
         StripShares strips;
         for (const std::size_t level : {k, k + 1}) {
           strips.left += 0.5 * strip(left_is_plus ? plus_ : minus_, raster, columns, level);
           strips.right += 0.5 * strip(left_is_plus ? minus_ : plus_, raster, columns, level);
         }
-        const double left = left_probability(complex_, weights, edge, k, strips, tolerances_.beside_low);
+        const double left = left_probability(complex_, weights, edge, k, strips, left_faces, right_faces);
         const std::size_t face = complex_.wall_face(edge, k);
         weights.wall_left[face] = static_cast<float>(weights.wall_omega[face] * left);
         weights.wall_right[face] = static_cast<float>(weights.wall_omega[face] * (1 - left));

@@ -16,6 +16,7 @@ constexpr double kContinues = 0.3;  // coverage with which a wall goes on into t
 constexpr double kPrior = 0.1;      // coverage below which neither side is believed
 constexpr double kLevelWeight = 5;  // log-odds of a floor that is whole on one side and missing on the other
 constexpr double kStripWeight = 5;  // the same for the strips
+constexpr double kSliver = 0.1;     // [m] how far off the next face is still the wall's side
 
 }  // namespace
 
@@ -42,10 +43,35 @@ class Sides {
 
 }  // namespace
 
+FacesBeside::FacesBeside(const CellComplex& complex, std::size_t edge, bool left, double beside_m) {
+  std::size_t passed = 0;
+  nearest_ = walk_beside(complex, edge, left, beside_m, [&](std::size_t, bool) { ++passed; });
+  walk_beside(complex, edge, left, std::max(beside_m, kSliver), [&](std::size_t other, bool from_left) {
+    if (passed > 0) {
+      --passed;
+      return;
+    }
+    const CellComplex::Edge& e = complex.edges[other];
+    beyond_.push_back({e.line, from_left ? e.right : e.left});
+  });
+}
+
+std::int32_t FacesBeside::face(const CellComplex& complex, std::size_t layer) const {
+  std::int32_t found = nearest_;
+  for (const Step& step : beyond_) {
+    if (step.line < 0 || complex.lines[static_cast<std::size_t>(step.line)].carries(layer)) {
+      break;
+    }
+    found = step.face;
+  }
+  return found;
+}
+
 double left_probability(const CellComplex& complex, const FaceWeights& weights, std::size_t edge,
-                        std::size_t layer, const StripShares& strips, double beside_m) {
-  const std::int32_t left_face = walk_beside(complex, edge, true, beside_m);
-  const std::int32_t right_face = walk_beside(complex, edge, false, beside_m);
+                        std::size_t layer, const StripShares& strips, const FacesBeside& left,
+                        const FacesBeside& right) {
+  const std::int32_t left_face = left.face(complex, layer);
+  const std::int32_t right_face = right.face(complex, layer);
   const auto goes_on = [&](std::size_t k) {
     return weights.wall_omega[complex.wall_face(edge, k)] > kContinues;
   };

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "common/cells/cell_complex.h"
 
@@ -12,12 +14,29 @@ struct StripShares {
   double left = 0, right = 0;
 };
 
+/// The faces of the plan beside an edge: `beside_m` off it, or further, up to 10 cm, as long as lines that
+/// carry nothing in the layer cut slivers off.
+class FacesBeside {
+ public:
+  FacesBeside(const CellComplex& complex, std::size_t edge, bool left, double beside_m);
+  /// -1 = beyond the bounding box.
+  std::int32_t face(const CellComplex& complex, std::size_t layer) const;
+
+ private:
+  struct Step {
+    std::int32_t line, face;  // the line that is crossed, the face behind
+  };
+  std::int32_t nearest_;
+  std::vector<Step> beyond_;
+};
+
 /// Probability that the empty side of a wall face is its left one. A wall stands where a floor and a ceiling
-/// end: asked are the faces of the plan on both sides, `beside_m` beside the wall (slivers between nearly
-/// equal lines have no floor of their own), at the nearest levels below and above and, as far as these say
-/// nothing and the wall goes on, at the next ones; and the strips right beside it. Needs wall_omega,
-/// level_floor and level_ceiling. No evidence: 1/2.
+/// end: asked are the faces of the plan on both sides (slivers between nearly equal lines have no floor of
+/// their own), at the nearest levels below and above and, as far as these say nothing and the wall goes on,
+/// at the next ones; and the strips right beside it. Needs wall_omega, level_floor and level_ceiling. No
+/// evidence: 1/2.
 double left_probability(const CellComplex& complex, const FaceWeights& weights, std::size_t edge,
-                        std::size_t layer, const StripShares& strips, double beside_m);
+                        std::size_t layer, const StripShares& strips, const FacesBeside& left,
+                        const FacesBeside& right);
 
 }  // namespace roomcut

@@ -115,6 +115,32 @@ TEST(CastRays, AWallOfWhichOneFaceWasNotSeenKeepsBothRooms) {
   EXPECT_GT(t.beta[scene.east], 0.7);
 }
 
+/// A wall of 20 cm seen from the west only; a line of another storey splits it 4 cm behind its face.
+struct SplitWall {
+  CellComplex complex = grid_complex({-2, 0, 4, 4.04, 4.2, 8.2, 10}, {-2, 0, 4, 6}, {-0.5, 0, 2.6, 3.1});
+  std::size_t behind = complex.cell(9, 1);
+  FaceWeights weights = [this] {
+    std::vector<bool> empty(complex.cells(), false);
+    empty[complex.cell(7, 1)] = empty[complex.cell(10, 1)] = true;
+    FaceWeights w = weights_of(complex, empty);
+    const std::size_t unseen = complex.wall_face(edge_near(complex, {4.2, 2}), 1);
+    w.wall_omega[unseen] = w.wall_left[unseen] = w.wall_right[unseen] = 0;
+    return w;
+  }();
+};
+
+TEST(CastRays, AWallSeenFromOneSideIsSolidBeyondALineInsideIt) {
+  const SplitWall wall;
+  EXPECT_LT(cast_rays(wall.complex, wall.weights, {}).beta[wall.behind], 0.5);
+}
+
+TEST(CastRays, ARoomsRimBehindACupboardHasACeilingAndIsEmpty) {
+  SplitWall cupboard;
+  cupboard.weights.level_omega[cupboard.complex.level_face(9, 2)] = 1;
+  cupboard.weights.level_ceiling[cupboard.complex.level_face(9, 2)] = 1;
+  EXPECT_GT(cast_rays(cupboard.complex, cupboard.weights, {}).beta[cupboard.behind], 0.5);
+}
+
 TEST(CastRays, TheUnseenFaceOfAWallIsImpliedByTheSeenOne) {
   TwoRooms scene;
   const std::size_t unseen = scene.complex.wall_face(edge_near(scene.complex, {4.1, 2}), 1);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/unit/raycast/room_weights.h"
 #include "tests/unit/weigh_faces/grid_complex.h"
 
@@ -69,6 +71,36 @@ TEST(OneSided, NoneWhereALineRunsBehindOrNothingIsClear) {
   scene.weights.wall_right[scene.complex.wall_face(scene.edge, 0)] = 0.4F;
   scene.weights.wall_left[scene.complex.wall_face(scene.edge, 0)] = 0.5F;
   EXPECT_TRUE(find_one_sided(scene.complex, scene.weights, scene.label, 3).empty()) << "no side is clear";
+}
+
+TEST(OneSided, ALineThatMayNotCarryInTheWallsLayersDoesNotCloseIt) {
+  HalfSeenWall scene(0);
+  const auto walls = find_one_sided(scene.complex, scene.weights, scene.label, 3);
+  WallLine behind;
+  behind.id = "w9";
+  behind.a = {4.1, 0};
+  behind.b = {4.1, 4};
+  behind.levels = {1};
+  scene.lines.lines.push_back(behind);
+  EXPECT_EQ(add_unseen_faces(walls, 0.2, scene.lines), 1);
+}
+
+TEST(OneSided, TheUnseenFaceStaysBehindWhenRefinementTurnsTheNormal) {
+  // theta of the line is just above 0; a refined one just below it is stored as just below pi.
+  for (const double lean : {-0.001, 0.001}) {
+    HalfSeenWall scene(0);
+    const auto walls = find_one_sided(scene.complex, scene.weights, scene.label, 3);
+    ASSERT_EQ(walls.size(), 1U);
+    WallLine& seen = *std::find_if(scene.lines.lines.begin(), scene.lines.lines.end(),
+                                   [&](const WallLine& line) { return line.id == walls[0].wall_id; });
+    seen.a.x() += lean;
+    ASSERT_EQ(add_unseen_faces(walls, 0.2, scene.lines), 1);
+    const auto unseen = std::find_if(scene.lines.lines.begin(), scene.lines.lines.end(),
+                                     [](const WallLine& line) { return !line.note.empty(); });
+    EXPECT_NEAR(unseen->a.x(), 4.2, 0.002) << lean;
+    EXPECT_NEAR(unseen->b.x(), 4.2, 0.002) << lean;
+    EXPECT_NEAR(unseen->centre().y(), 2, 0.01) << lean;
+  }
 }
 
 TEST(OneSided, AWallBetweenEmptyAndSolidIsNone) {

@@ -194,6 +194,22 @@ TEST(WeighFaces, ALineTakesNoPointsInLayersWhereItMayNotCarryAWall) {
       << "the next line takes them";
 }
 
+TEST(WeighFaces, ASliverCutOffByALineThatCarriesNothingThereTurnsNoWall) {
+  // A line of another storey 5 cm before the wall at x = 4; the wall's own back side has a floor: a door.
+  CellComplex complex = grid_complex({-1, 0, 3.95, 4, 8}, {-1, 0, 4, 5}, {0, 2.5, 5});
+  SampledCloud cloud(100, 0.003);
+  cloud.wall({4, 0}, {4, 4}, 0, 2.5);
+  cloud.flat(0, 3.9, 0, 4, 0);
+  cloud.flat(0, 3.9, 0, 4, 2.5);
+  cloud.flat(4, 8, 1, 2, 0);
+  const std::size_t wall = complex.wall_face(edge_near(complex, {4, 2}), 0);
+  const FaceWeights both = weigh(complex, cloud);
+  EXPECT_LT(both.wall_left[wall], 0.5 * both.wall_omega[wall]) << "the sliver has no floor";
+  complex.lines[1].layers = {1};
+  const FaceWeights own = weigh(complex, cloud);
+  EXPECT_GT(own.wall_left[wall], 0.9 * own.wall_omega[wall]);
+}
+
 TEST(WeighFaces, PointsInARoomAreCountedInItsCellAndNotThoseOnItsFaces) {
   const TwoRooms scene(0.1);
   SampledCloud cloud(400, 0.004);

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/refine_lines/carried_layers.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/raycast/room_weights.h"
+#include "tests/unit/weigh_faces/grid_complex.h"
+
+namespace roomcut {
+namespace {
+
+/// Two storeys and the slab between. The wall at x = 4 stands in the lower storey, that at x = 4.06 in the
+/// upper one; both lines cut all layers.
+struct TwoStoreys {
+  TwoStoreys() {
+    std::vector<bool> empty(complex.cells(), false);
+    empty[complex.cell(5, 0)] = true;
+    empty[complex.cell(5, 2)] = empty[complex.cell(6, 2)] = true;
+    weights = weights_of(complex, empty);
+    label.assign(empty.begin(), empty.end());
+    for (const CellComplex::Line& line : complex.lines) {
+      WallLine wall;
+      wall.id = line.wall_id;
+      wall.a = line.line.at(line.t0);
+      wall.b = line.line.at(line.t1);
+      lines.lines.push_back(wall);
+    }
+  }
+  const std::optional<std::vector<int>>& levels_at(double x) const {
+    const std::size_t edge = edge_near(complex, {x, 2});
+    return lines.lines[static_cast<std::size_t>(complex.edges[edge].line)].levels;
+  }
+  CellComplex complex = grid_complex({-1, 0, 4, 4.06, 9}, {-1, 0, 4, 5}, {0, 2.6, 2.9, 5.5});
+  FaceWeights weights;
+  std::vector<std::uint8_t> label;
+  WallLines lines;
+};
+
+TEST(CarriedLayers, ALineCarriesWhereTheFirstCutHasSurfaceOnIt) {
+  TwoStoreys scene;
+  restrict_to_carried_layers(scene.complex, scene.weights, scene.label, scene.lines);
+  EXPECT_EQ(scene.levels_at(4), std::vector<int>{0});
+  EXPECT_EQ(scene.levels_at(4.06), std::vector<int>{2});
+}
+
+TEST(CarriedLayers, ATenthSeenIsEnough) {
+  TwoStoreys scene;
+  scene.weights.wall_omega[scene.complex.wall_face(edge_near(scene.complex, {4, 2}), 2)] = 0.15F;
+  restrict_to_carried_layers(scene.complex, scene.weights, scene.label, scene.lines);
+  EXPECT_EQ(scene.levels_at(4), (std::vector<int>{0, 2}));
+}
+
+TEST(CarriedLayers, LinesOfTheUsersAndThoseOfNothingStayAsTheyAre) {
+  TwoStoreys scene;
+  for (WallLine& line : scene.lines.lines) line.source = LineSource::kEdited;
+  restrict_to_carried_layers(scene.complex, scene.weights, scene.label, scene.lines);
+  EXPECT_FALSE(scene.levels_at(4).has_value());
+  for (WallLine& line : scene.lines.lines) line.source = LineSource::kDetected;
+  scene.weights = no_weights(scene.complex);
+  scene.label.assign(scene.complex.cells(), 0);
+  restrict_to_carried_layers(scene.complex, scene.weights, scene.label, scene.lines);
+  EXPECT_FALSE(scene.levels_at(4).has_value());
+}
+
+}  // namespace
+}  // namespace roomcut
