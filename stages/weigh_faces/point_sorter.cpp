@@ -54,11 +54,12 @@ std::int32_t PointSorter::wall_of_unclassed() const {
     if (c.line == best->line || std::abs(c.e) >= tolerances_.wall_alone) {
       continue;
     }
-    // In a corner the point could be either wall's. Between the two faces of a thin wall, whose voxels hold
-    // both and so have no plane, it is the face's on which it lies within the noise.
-    const bool other_face = parallel(c.line, best->line) && std::abs(best->e) < tolerances_.wall_tight &&
-                            2 * std::abs(best->e) < std::abs(c.e);
-    if (!other_face) {
+    // It could be either wall's where both lie within the noise. Elsewhere in a corner, and between the two
+    // faces of a thin wall (voxels hold points of both and so have no plane), it is the wall's on which it
+    // lies.
+    const bool off_it = parallel(c.line, best->line) || std::abs(c.e) > tolerances_.wall_tight;
+    const bool on_best = std::abs(best->e) < tolerances_.wall_tight && 2 * std::abs(best->e) < std::abs(c.e);
+    if (!off_it || !on_best) {
       return -1;
     }
   }

@@ -12,7 +12,7 @@ struct Tolerances {
   double wall_reach;  ///< largest distance of a wall point from its line
   double
       wall_alone;  ///< a point without a class belongs to a line only if no other passes within this distance
-  double wall_tight;  ///< … or if the others are parallel and it lies this close to the line: thin walls [m]
+  double wall_tight;  ///< … or if it lies this close to the line, and not to another one that crosses it [m]
   double azimuth;     ///< largest angle between a wall point's normal and its line's [rad]
   double level_reach;              ///< largest distance of a horizontal point from its level
   double level_tight;              ///< the same for points without a class

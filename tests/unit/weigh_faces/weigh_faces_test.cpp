@@ -173,6 +173,23 @@ TEST(WeighFaces, EveryWallPointIsGivenToOneLineOnly) {
   EXPECT_GT(w.wall_points[own], 10 * w.wall_points[other]);
 }
 
+TEST(WeighFaces, InACornerAPointWithoutAClassIsTheWallsOnWhichItLies) {
+  // A corner at (0, 0), and 10 cm from it a line that has its wall elsewhere.
+  const CellComplex complex = grid_complex({-1, 0, 4}, {-1, 0, 0.1, 4}, {0, 2.6});
+  SampledCloud cloud(400, 0.004);
+  cloud.wall({0, 0.005}, {0, 4}, 0, 2.6);
+  cloud.wall({0.005, 0}, {4, 0}, 0, 2.6);
+  std::fill(cloud.tile.surface.begin(), cloud.tile.surface.end(),
+            static_cast<std::uint8_t>(SurfaceClass::kNone));
+  const FaceWeights w = weigh(complex, cloud);
+  EXPECT_GT(w.wall_omega[complex.wall_face(edge_near(complex, {0, 0.05}), 0)], 0.8)
+      << "the strip in the corner";
+  EXPECT_GT(w.wall_omega[complex.wall_face(edge_near(complex, {2, 0}), 0)], 0.9);
+  EXPECT_LT(w.wall_omega[complex.wall_face(edge_near(complex, {-0.5, 0}), 0)], 0.1) << "behind the wall";
+  EXPECT_LT(w.wall_omega[complex.wall_face(edge_near(complex, {2, 0.1}), 0)], 0.1) << "no wall there";
+  EXPECT_LT(w.wall_omega[complex.wall_face(edge_near(complex, {0, -0.5}), 0)], 0.1);
+}
+
 TEST(WeighFaces, WallPointsOfAnotherDirectionDoNotCount) {
   const CellComplex complex = grid_complex({-1, 0, 4, 5}, {-1, 0, 4, 5}, {0, 2.6});
   SampledCloud cloud(2000, 0.004);
