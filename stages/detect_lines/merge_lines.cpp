@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <tuple>
 
 namespace roomcut {
@@ -24,13 +25,29 @@ std::pair<double, double> interval_on(const Line2& line, const LineCandidate& we
   return std::minmax(a, b);
 }
 
-bool duplicates(const LineCandidate& kept, const LineCandidate& weaker, const MergeRules& rules) {
+/// Whether the stronger line is a wall beside the weaker one in one of its slices: what lies in front of a
+/// wall does so in one storey.
+bool share_a_slice(const WallCells& cells, const LineCandidate& kept, const LineCandidate& weaker,
+                   double reach_m) {
+  std::set<std::int32_t> slices;
+  for (const std::uint32_t i : weaker.support.cells) slices.insert(cells.slice[i]);
+  const std::pair<double, double> place = interval_on(kept.line, weaker);
+  return std::any_of(kept.support.cells.begin(), kept.support.cells.end(), [&](std::uint32_t i) {
+    const double t = kept.line.along({cells.x[i], cells.y[i]});
+    return t >= place.first - reach_m && t <= place.second + reach_m && slices.contains(cells.slice[i]);
+  });
+}
+
+bool duplicates(const WallCells& cells, const LineCandidate& kept, const LineCandidate& weaker,
+                const MergeRules& rules) {
   if (angle_between(kept.line.theta, weaker.line.theta) >= rules.angle_rad) return false;
   const auto [t0, t1] = interval_on(kept.line, weaker);
   const bool beside = t0 >= kept.support.t0 && t1 <= kept.support.t1 &&
                       weaker.support.support_m < rules.minor_share * kept.support.support_m;
-  const double distance_m = beside ? std::max(rules.distance_m, rules.minor_distance_m) : rules.distance_m;
-  if (std::abs(kept.line.distance(centre(weaker))) >= distance_m) return false;
+  const double apart = std::abs(kept.line.distance(centre(weaker)));
+  const bool minor =
+      beside && apart < rules.minor_distance_m && share_a_slice(cells, kept, weaker, rules.minor_reach_m);
+  if (apart >= rules.distance_m && !minor) return false;
   return t0 <= kept.support.t1 + rules.reach_m && t1 >= kept.support.t0 - rules.reach_m;
 }
 
@@ -55,7 +72,7 @@ std::vector<LineCandidate> merge_near_duplicates(const WallCells& cells, std::ve
   std::vector<LineCandidate> kept;
   for (LineCandidate& line : lines) {
     const auto twin = std::find_if(kept.begin(), kept.end(),
-                                   [&](const LineCandidate& k) { return duplicates(k, line, rules); });
+                                   [&](const LineCandidate& k) { return duplicates(cells, k, line, rules); });
     if (twin == kept.end()) {
       kept.push_back(std::move(line));
     } else {

@@ -16,10 +16,12 @@ struct LineCandidate {
 struct MergeRules {
   double distance_m = 0;  ///< lines nearer than this, at the weaker one's support centre, are one
   double angle_rad = 0;
-  double minor_distance_m =
-      0.06;  ///< the same for a short line beside a long one: a door frame, not a wall's other face
-  double minor_share = 0.3;  ///< shorter than this share of the other's support
-  double reach_m = 2.0;      ///< supports farther apart along the line do not meet in the partition
+  /// The same for a short line beside a long one that both are seen in one slice there: a door frame, neither
+  /// a wall's other face nor a wall of another storey.
+  double minor_distance_m = 0.06;
+  double minor_reach_m = 0.5;  ///< how far beyond the ends of the short one the long one is looked for
+  double minor_share = 0.3;    ///< shorter than this share of the other's support
+  double reach_m = 2.0;        ///< supports farther apart along the line do not meet in the partition
 };
 
 /// Joins near-duplicates to the stronger line, which keeps its place and takes over cells and extent: one

@@ -54,6 +54,15 @@ TEST(MergeLines, AShortLineBesideALongOneIsJoinedFromFartherOff) {
   EXPECT_EQ(merged_pair({0.4, 5}, 0, 6, {0.4, 5.07}, 2, 3).size(), 2U);
 }
 
+TEST(MergeLines, AShortWallOfAnotherStoreyStaysALine) {
+  WallCells cells;
+  const LineCandidate lower = candidate(cells, {0.4, 5}, 0, 6);
+  const std::size_t first = cells.size();
+  const LineCandidate upper = candidate(cells, {0.4, 5.05}, 2, 3);
+  std::fill(cells.slice.begin() + static_cast<std::ptrdiff_t>(first), cells.slice.end(), 1);
+  EXPECT_EQ(merge_near_duplicates(cells, {upper, lower}, kMerge, kRules).size(), 2U);
+}
+
 TEST(MergeLines, TheFacesOfAThinWallStayTwo) {
   EXPECT_EQ(merged_pair({0.4, 5}, 0, 6, {0.4, 5.06}, 0, 6).size(), 2U);
 }
