@@ -47,20 +47,6 @@ std::vector<std::vector<Piece>> find_pieces(const CellComplex& complex,
   return pieces;
 }
 
-void add_one_sided(const CellComplex& complex, const std::vector<OneSidedWall>& walls,
-                   std::vector<std::vector<Piece>>& pieces) {
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    for (const OneSidedWall& wall : walls) {
-      if (wall.wall_id != complex.lines[i].wall_id) {
-        continue;
-      }
-      for (const std::int32_t layer : wall.layers) {
-        pieces[i].push_back({static_cast<std::size_t>(layer), wall.t0, wall.t1, !wall.back_is_plus});
-      }
-    }
-  }
-}
-
 void raster(const std::vector<Piece>& pieces, LineFaces& faces) {
   std::vector<double> covered[2];  // by faces whose empty side is away from, towards the normal [m]
   covered[0].assign(faces.bins * faces.layers, 0);
@@ -88,9 +74,8 @@ void raster(const std::vector<Piece>& pieces, LineFaces& faces) {
 }  // namespace
 
 std::vector<LineFaces> find_line_faces(const CellComplex& complex, const std::vector<std::uint8_t>& label,
-                                       double bin_m, const std::vector<OneSidedWall>& one_sided) {
-  std::vector<std::vector<Piece>> pieces = find_pieces(complex, label);
-  add_one_sided(complex, one_sided, pieces);
+                                       double bin_m) {
+  const std::vector<std::vector<Piece>> pieces = find_pieces(complex, label);
   std::vector<LineFaces> result(complex.lines.size());
   for (std::size_t i = 0; i < result.size(); ++i) {
     LineFaces& faces = result[i];
@@ -114,22 +99,6 @@ std::vector<LineFaces> find_line_faces(const CellComplex& complex, const std::ve
     raster(pieces[i], faces);
   }
   return result;
-}
-
-bool carries(const LineFaces& faces, const OneSidedWall& wall) {
-  const double length = wall.t1 - wall.t0;
-  const double steps = std::max(1.0, std::round(length / faces.bin_m));
-  double own = 0;
-  for (double step = 0; step < steps; ++step) {
-    const double bin = (wall.t0 + (step + 0.5) / steps * length - faces.t0) / faces.bin_m;
-    if (bin < 0 || bin >= static_cast<double>(faces.bins)) {
-      continue;
-    }
-    for (const std::int32_t layer : wall.layers) {
-      own += faces.side_at(static_cast<std::size_t>(bin), static_cast<std::size_t>(layer)) != 0 ? 1 : 0;
-    }
-  }
-  return 2 * own > steps * static_cast<double>(wall.layers.size());
 }
 
 }  // namespace roomcut

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "common/cells/cell_complex.h"
-#include "stages/refine_lines/one_sided.h"
 
 namespace roomcut {
 
@@ -25,12 +24,8 @@ struct LineFaces {
   std::int8_t side_at(std::size_t bin, std::size_t layer) const { return side[bin * layers + layer]; }
 };
 
-/// One entry per complex.lines. `label` as in Labels. Walls seen from one side count as surface that faces
-/// the side from which they were seen.
+/// One entry per complex.lines. `label` as in Labels.
 std::vector<LineFaces> find_line_faces(const CellComplex& complex, const std::vector<std::uint8_t>& label,
-                                       double bin_m, const std::vector<OneSidedWall>& one_sided = {});
-
-/// Whether more than half of `wall` is surface of `faces`, which are of its line or of a part of that.
-bool carries(const LineFaces& faces, const OneSidedWall& wall);
+                                       double bin_m);
 
 }  // namespace roomcut

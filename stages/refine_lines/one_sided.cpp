@@ -54,12 +54,11 @@ bool carries_in(const WallLine& line, const std::vector<std::int32_t>& layers) {
 
 /// The same wall as the refined line sees it, whose normal may point the other way: theta is in [0, pi).
 OneSidedWall on_line(OneSidedWall wall, const Line2& line) {
-  if (line.normal().dot(wall.line.normal()) < 0) {
-    wall.back_is_plus = !wall.back_is_plus;
-    std::swap(wall.t0, wall.t1);
-    wall.t0 = -wall.t0;
-    wall.t1 = -wall.t1;
-  }
+  const auto [low, high] =
+      std::minmax({line.along(wall.line.at(wall.t0)), line.along(wall.line.at(wall.t1))});
+  wall.back_is_plus = wall.back_is_plus == (line.normal().dot(wall.line.normal()) > 0);
+  wall.t0 = low;
+  wall.t1 = high;
   wall.line = line;
   return wall;
 }
@@ -103,8 +102,8 @@ std::vector<OneSidedWall> find_one_sided(const CellComplex& complex, const FaceW
       const auto [t0, t1] = interval_of(complex, edge);
       OneSidedWall& wall = walls[{line, back_is_plus}];
       if (wall.layers.empty()) {
-        const CellComplex::Line& own = complex.lines[static_cast<std::size_t>(line)];
-        wall = {own.wall_id, own.line, back_is_plus, t0, t1, {}, 0};
+        wall = {complex.lines[static_cast<std::size_t>(line)].wall_id, back_is_plus, t0, t1, {}, 0,
+                complex.lines[static_cast<std::size_t>(line)].line};
       }
       wall.t0 = std::min(wall.t0, t0);
       wall.t1 = std::max(wall.t1, t1);
@@ -186,7 +185,7 @@ int add_unseen_faces(const std::vector<OneSidedWall>& walls, double thickness_m,
     }
     const Vec2 behind = (wall.back_is_plus ? thickness_m : -thickness_m) * line.normal();
     WallLine unseen;
-    unseen.id = wall.wall_id + (found.back_is_plus ? ".unseen+" : ".unseen-");
+    unseen.id = wall.wall_id + (wall.back_is_plus ? ".unseen+" : ".unseen-");
     unseen.a = line.at(wall.t0) + behind;
     unseen.b = line.at(wall.t1) + behind;
     unseen.source = LineSource::kRefined;

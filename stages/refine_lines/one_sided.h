@@ -15,11 +15,11 @@ namespace roomcut {
 /// closes it.
 struct OneSidedWall {
   std::string wall_id;
-  Line2 line;                        ///< the complex's, to which the next three refer
   bool back_is_plus = false;         ///< the back looks to where the line's normal points
-  double t0 = 0, t1 = 0;             ///< along the line [m]
+  double t0 = 0, t1 = 0;             ///< along `line` [m]
   std::vector<std::int32_t> layers;  ///< ascending
   double area_m2 = 0;                ///< seen
+  Line2 line;                        ///< of the first cut; the refined one may look the other way
 };
 
 /// All one-sided walls of at least `least_m2`, by line, then side. `label` as in Labels.

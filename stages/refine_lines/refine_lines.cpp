@@ -9,6 +9,7 @@
 
 #include "common/errors/codes.h"
 #include "stages/refine_lines/adjust.h"
+#include "stages/refine_lines/bends.h"
 #include "stages/refine_lines/line_faces.h"
 #include "stages/refine_lines/merge_lines.h"
 #include "stages/refine_lines/observe.h"
@@ -56,6 +57,7 @@ struct LineRefiner::State {
   Refinement result;
 
   void split(std::vector<Item>& items);
+  void add_bends(std::vector<Item>& items);
   void solve_each(std::vector<Item>& items) const;
   void solve_together(std::vector<Item>& items);
   bool merge_near(std::vector<Item>& items);
@@ -85,7 +87,7 @@ LineRefiner::LineRefiner(const WallLines& lines, const CellComplex& complex,
                        {}}) {
   State& s = *state_;
   s.kept.lines.clear();
-  s.faces = find_line_faces(complex, label, params.bin_m, one_sided);
+  s.faces = find_line_faces(complex, label, params.bin_m);
   s.one_sided = ids_of(one_sided);
   s.result.one_sided = std::move(one_sided);
   std::map<std::string, std::size_t> by_id;
@@ -152,20 +154,27 @@ void LineRefiner::State::split(std::vector<Item>& items) {
       continue;
     }
     const std::string id = items[i].wall.id;
+    std::vector<std::vector<OneSidedWall*>> one_sided_of(parts.size());
+    for (OneSidedWall& wall : result.one_sided) {
+      if (wall.wall_id == id) {
+        const auto nearest = std::min_element(
+            parts.begin(), parts.end(),
+            [&](const LinePart& a, const LinePart& b) { return steps_to(a, wall) < steps_to(b, wall); });
+        one_sided_of[static_cast<std::size_t>(nearest - parts.begin())].push_back(&wall);
+      }
+    }
     for (std::size_t k = parts.size(); k-- > 0;) {
       Item part = items[i];
       part.area_m2 = parts[k].faces.area_m2;
-      part.keeps_ends = false;
       part.wall.levels = levels_of(parts[k], items[i].wall.levels);
       part.faces = {std::move(parts[k].faces)};
       part.observations = std::move(parts[k].observations);
       for (int number = 1; k > 0 && !ids.insert(part.wall.id).second; ++number) {
         part.wall.id = id + "." + std::to_string(number);
       }
-      for (OneSidedWall& wall : result.one_sided) {
-        if (wall.wall_id == id && carries(part.faces.front(), wall)) {
-          wall.wall_id = part.wall.id;
-        }
+      part.keeps_ends = !one_sided_of[k].empty();
+      for (OneSidedWall* wall : one_sided_of[k]) {
+        wall->wall_id = part.wall.id;
       }
       if (k == 0) {
         items[i] = std::move(part);
@@ -175,6 +184,44 @@ void LineRefiner::State::split(std::vector<Item>& items) {
       items.push_back(std::move(part));
     }
   }
+}
+
+void LineRefiner::State::add_bends(std::vector<Item>& items) {
+  std::vector<double> heights;
+  std::vector<FittedLine> lines;
+  std::vector<std::size_t> of_line;
+  std::set<std::string> ids;
+  for (std::size_t layer = 0; layer < complex.layers(); ++layer) {
+    heights.push_back(complex.height(layer));
+  }
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const Item& item = items[i];
+    ids.insert(item.wall.id);
+    if (!item.faces.empty() && item.faces.front().bins > 0) {
+      lines.push_back({posed(item.problem.line, item.problem.centre, item.fit.pose), &item.faces.front(),
+                       &item.observations});
+      of_line.push_back(i);
+    }
+  }
+  std::vector<Item> added;
+  for (Bend& bend : find_bends(lines, heights)) {
+    Item item = items[of_line[bend.parent]];
+    const std::string id = item.wall.id;
+    for (int number = 1; !ids.insert(item.wall.id).second; ++number) {
+      item.wall.id = id + "." + std::to_string(number);
+    }
+    item.wall.a = bend.faces.line.at(bend.faces.t0);
+    item.wall.b = bend.faces.line.at(bend.faces.t1);
+    item.users = item.keeps_ends = false;
+    item.wall.locked = false;
+    item.wall.source = LineSource::kRefined;
+    item.area_m2 = bend.faces.area_m2;
+    item.faces = {std::move(bend.faces)};
+    item.observations = std::move(bend.observations);
+    added.push_back(std::move(item));
+  }
+  result.bends = static_cast<int>(added.size());
+  items.insert(items.end(), std::make_move_iterator(added.begin()), std::make_move_iterator(added.end()));
 }
 
 void LineRefiner::State::solve_each(std::vector<Item>& items) const {
@@ -343,6 +390,8 @@ Refinement LineRefiner::finish() {
   }
   s.result.points = s.observer->points();
   s.split(items);
+  s.solve_each(items);
+  s.add_bends(items);
   s.solve_each(items);
   s.solve_together(items);
   for (int round = 0; round < kMergeRounds && s.merge_near(items); ++round) {

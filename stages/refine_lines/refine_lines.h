@@ -20,9 +20,10 @@ struct Refinement {
   int dropped = 0;                      ///< detected lines that carry no surface of the first cut
   int merged = 0;                       ///< lines that went into another one
   int split = 0;                        ///< lines made of walls that were taken for a part of another line
-  int refined = 0;                      ///< lines that were adjusted
-  int held = 0;                         ///< lines that stayed as they came: locked, or too few observations
-  int classes = 0;                      ///< groups of parallel and perpendicular walls
+  int bends = 0;    ///< walls without a line of their own, found where others leave their line
+  int refined = 0;  ///< lines that were adjusted
+  int held = 0;     ///< lines that stayed as they came: locked, or too few observations
+  int classes = 0;  ///< groups of parallel and perpendicular walls
   int observations = 0;
   std::uint64_t points = 0;                        ///< points that were observed
   double median_shift_m = 0, largest_shift_m = 0;  ///< of the refined lines, at their centres

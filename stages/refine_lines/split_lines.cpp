@@ -257,4 +257,21 @@ std::optional<std::vector<int>> levels_of(const LinePart& part,
   return both.empty() ? whole : both;
 }
 
+double steps_to(const LinePart& part, const OneSidedWall& wall) {
+  const LineFaces& faces = part.faces;
+  double nearest = std::numeric_limits<double>::max();
+  for (std::size_t cell = 0; cell < faces.side.size(); ++cell) {
+    if (faces.side[cell] == 0) {
+      continue;
+    }
+    const double t = faces.t0 + (static_cast<double>(cell / faces.layers) + 0.5) * faces.bin_m;
+    const double bins = std::max({0.0, wall.t0 - t, t - wall.t1}) / faces.bin_m;
+    for (const std::int32_t layer : wall.layers) {
+      const double layers = std::abs(static_cast<double>(cell % faces.layers) - layer);
+      nearest = std::min(nearest, bins + layers);
+    }
+  }
+  return nearest;
+}
+
 }  // namespace roomcut

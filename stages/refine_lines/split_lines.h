@@ -6,6 +6,7 @@
 
 #include "stages/refine_lines/line_faces.h"
 #include "stages/refine_lines/line_fit.h"
+#include "stages/refine_lines/one_sided.h"
 
 namespace roomcut {
 
@@ -29,5 +30,9 @@ std::vector<LinePart> split_line(const LineFaces& faces, const std::vector<Obser
 /// WallLine::levels of a part of a line that had `whole`: those in which the part may carry a wall, so that
 /// it leaves no sliver beside the other part's wall in another storey. Null for all layers.
 std::optional<std::vector<int>> levels_of(const LinePart& part, const std::optional<std::vector<int>>& whole);
+
+/// How far a wall seen from one side lies from the nearest surface of the part, in bins and layers: it
+/// belongs to the part to which it is nearest.
+double steps_to(const LinePart& part, const OneSidedWall& wall);
 
 }  // namespace roomcut

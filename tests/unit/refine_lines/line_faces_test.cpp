@@ -63,23 +63,5 @@ TEST(LineFaces, AShortWallStillGivesTenBins) {
   EXPECT_EQ(of(all, complex, "x1").bins, 40U);
 }
 
-TEST(LineFaces, AWallSeenFromOneSideIsSurfaceThatFacesWhereItWasSeenFrom) {
-  const CellComplex complex = grid_complex({-2, 0, 3, 5, 7}, {-2, 0, 2, 4, 6}, {0, 2.5, 3});
-  const auto label = labelled(complex, [](const Vec2& p, std::size_t layer) {
-    return layer == 0 && p.x() > 0 && p.x() < 5 && p.y() > 0 && p.y() < 4;
-  });
-  EXPECT_EQ(of(find_line_faces(complex, label, 0.1), complex, "x2").bins, 0U) << "empty on both sides";
-  for (const bool back_is_plus : {true, false}) {
-    const OneSidedWall wall{"x2", back_is_plus, 0, 2, {0}, 5};
-    const auto all = find_line_faces(complex, label, 0.1, {wall});
-    const LineFaces& half = of(all, complex, "x2");
-    EXPECT_NEAR(half.area_m2, 5, 1e-9);
-    EXPECT_EQ(half.side_at(half.bins / 2, 0), back_is_plus ? -1 : 1);
-    EXPECT_EQ(half.side_at(half.bins / 2, 1), 0);
-    EXPECT_TRUE(carries(half, wall));
-    EXPECT_FALSE(carries(of(all, complex, "x1"), {"x2", back_is_plus, -2, 6, {0, 1}, 5}));
-  }
-}
-
 }  // namespace
 }  // namespace roomcut

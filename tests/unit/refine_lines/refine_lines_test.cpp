@@ -139,12 +139,13 @@ TEST_F(RefineLines, EditedLinesAreHeldWhenTheParameterSaysSo) {
   EXPECT_EQ(find(refine().lines, "x1").centre().x(), 0);
 }
 
-TEST_F(RefineLines, AWallSeenFromOneSideIsMovedToItsPointsAndKeepsItsNameWhenItsLineIsSplit) {
-  // Two rows of rooms along one line; the northern wall lies 3 cm off and both its sides are empty.
-  complex_ = grid_complex({-2, 0, 5, 9, 11}, {-2, 0, 4, 4.4, 8, 10}, {0, 2.5});
+TEST_F(RefineLines, ALineWithAWallSeenFromOneSideIsSplitLikeAnyOther) {
+  // Three rows of rooms along one line; its northern wall lies 3 cm off, both sides of the middle one are
+  // empty.
+  complex_ = grid_complex({-2, 0, 5, 9, 11}, {-2, 0, 4, 4.4, 8, 8.4, 12, 14}, {0, 2.5});
   label_ = testing::labelled(complex_, [](const Vec2& p, std::size_t) {
-    return p.y() > 0 && p.y() < 8 && !(p.y() > 4 && p.y() < 4.4) && p.x() > 0 && p.x() < 9 &&
-           !(p.x() > 5 && p.y() < 4);
+    const bool wall = p.y() < 0 || p.y() > 12 || (p.y() > 4 && p.y() < 4.4) || (p.y() > 8 && p.y() < 8.4);
+    return !wall && p.x() > 0 && p.x() < 9 && !(p.x() > 5 && (p.y() < 4 || p.y() > 8.4));
   });
   lines_.lines.clear();
   for (const CellComplex::Line& line : complex_.lines) {
@@ -157,16 +158,17 @@ TEST_F(RefineLines, AWallSeenFromOneSideIsMovedToItsPointsAndKeepsItsNameWhenIts
   points_ = {};
   Normal random(5);
   add_wall(points_, random, {0, 5.0}, 0, 4, 300, kNoise);
-  add_wall(points_, random, {0, 5.03}, 4.4, 8, 300, kNoise);
-  const OneSidedWall north{"x2", true, 4.4, 8, {0}, 9};
-  LineRefiner refiner(lines_, complex_, label_, kNoise, 300, params_, {north});
+  add_wall(points_, random, {0, 5.03}, 8.4, 12, 300, kNoise);
+  const OneSidedWall middle{"x2", true, 5.2, 8, {0}, 7, {0, 5}};
+  LineRefiner refiner(lines_, complex_, label_, kNoise, 300, params_, {middle});
   refiner.add(points_);
   const Refinement found = refiner.finish();
   EXPECT_EQ(found.split, 1);
   ASSERT_EQ(found.one_sided.size(), 1U);
-  const WallLine& moved = find(found.lines, found.one_sided[0].wall_id);
-  EXPECT_NEAR(std::abs(moved.line().distance({0, 6})), 5.03, 0.001);
-  const WallLine& other = find(found.lines, moved.id == "x2" ? "x2.1" : "x2");
+  const WallLine& nearest = find(found.lines, found.one_sided[0].wall_id);
+  EXPECT_NEAR(std::abs(nearest.line().distance({0, 10})), 5.03, 0.001);
+  EXPECT_NEAR(std::min(nearest.a.y(), nearest.b.y()), -2, 0.001) << "as long as it was";
+  const WallLine& other = find(found.lines, nearest.id == "x2" ? "x2.1" : "x2");
   EXPECT_NEAR(std::abs(other.line().distance({0, 2})), 5.0, 0.001);
 }
 
