@@ -25,7 +25,8 @@ inline double azimuth_of(std::uint8_t step) {
 }
 
 /// The points of one tile (a column of the cloud, square in plan), structure of arrays, local metres.
-/// Inside a tile the points are sorted by surface class, then by voxel.
+/// Inside a tile the points are sorted by surface class, then by voxel; one with many points is bands of
+/// rows, each sorted so.
 struct CloudTile {
   std::vector<float> x, y, z;
   std::vector<std::uint8_t> surface;  ///< SurfaceClass

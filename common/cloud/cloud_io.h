@@ -47,8 +47,8 @@ class CloudWriter {
   /// be right. Offsets and bounding box follow from the tiles that are appended.
   CloudWriter(const std::filesystem::path& path, const Provenance& provenance, const CloudHeader& header);
   ~CloudWriter();
-  /// The next tile, in the order of the header.
-  void append(const CloudTile& tile);
+  /// The next tile, in the order of the header; or a part of it, all but the last with `complete` false.
+  void append(const CloudTile& part, bool complete = true);
   /// Noise and density may be set until finish().
   CloudHeader& header();
   /// Publishes; returns whether the payload is new. Throws std::logic_error when points or tiles are missing.

@@ -18,6 +18,7 @@ struct CloudWriter::State {
       : file(path, artefacts::kCloud, provenance, from.frame), header(from) {}
   H5Writer file;
   CloudHeader header;
+  std::uint64_t points = 0;  ///< appended so far
   std::array<float, 3> low{}, high{};
 };
 
@@ -64,19 +65,21 @@ CloudWriter::CloudWriter(const std::filesystem::path& path, const Provenance& pr
 
 CloudWriter::~CloudWriter() = default;
 
-void CloudWriter::append(const CloudTile& tile) {
+void CloudWriter::append(const CloudTile& part, bool complete) {
   H5Writer& file = state_->file;
-  file.append(layout::kX, std::span<const float>(tile.x));
-  file.append(layout::kY, std::span<const float>(tile.y));
-  file.append(layout::kZ, std::span<const float>(tile.z));
-  file.append(layout::kSurface, std::span<const std::uint8_t>(tile.surface));
-  file.append(layout::kAzimuth, std::span<const std::uint8_t>(tile.azimuth));
-  file.append(layout::kArea, std::span<const float>(tile.area));
-  widen(tile.x, state_->low[0], state_->high[0]);
-  widen(tile.y, state_->low[1], state_->high[1]);
-  widen(tile.z, state_->low[2], state_->high[2]);
-  CloudHeader& header = state_->header;
-  header.tile_offset.push_back(header.tile_offset.back() + tile.size());
+  file.append(layout::kX, std::span<const float>(part.x));
+  file.append(layout::kY, std::span<const float>(part.y));
+  file.append(layout::kZ, std::span<const float>(part.z));
+  file.append(layout::kSurface, std::span<const std::uint8_t>(part.surface));
+  file.append(layout::kAzimuth, std::span<const std::uint8_t>(part.azimuth));
+  file.append(layout::kArea, std::span<const float>(part.area));
+  widen(part.x, state_->low[0], state_->high[0]);
+  widen(part.y, state_->low[1], state_->high[1]);
+  widen(part.z, state_->low[2], state_->high[2]);
+  state_->points += part.size();
+  if (complete) {
+    state_->header.tile_offset.push_back(state_->points);
+  }
 }
 
 CloudHeader& CloudWriter::header() {

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <condition_variable>
 #include <memory>
 #include <mutex>
 
 #include "stages/ingest/ingest.h"
+#include "stages/ingest/large_tile.h"
 #include "stages/ingest/surface_tile.h"
 
 namespace roomcut {
@@ -19,11 +19,11 @@ namespace {
 constexpr double kSmallestNoise_m = 1e-4;
 constexpr double kUnknownNoise_m = 5e-3;
 constexpr double kTwoFaces_m = 0.025;  // scatter of both faces of a wall of 5 cm: more is no plane
-constexpr std::uint64_t kMostInWork = 16'000'000;  // points of all tiles in work; each takes some 50 bytes
-constexpr std::uint64_t kLargeTile = 4'000'000;    // points of a tile whose memory is not kept for the next
 
+/// A tile with all but its points, when they are many: those are handed over from the store.
 struct FinishedTile {
   CloudTile cloud;
+  std::unique_ptr<LargeTile> large;
   SurfaceEstimates estimates;
   bool refused = false;
 };
@@ -41,52 +41,17 @@ class FinishedTiles {
     free_.pop_back();
     tile->estimates = {};
     tile->refused = false;
+    tile->large.reset();
     return tile;
   }
   void give_back(const std::shared_ptr<FinishedTile>& tile) {
-    if (tile->cloud.size() < kLargeTile) {
-      const std::scoped_lock lock(mutex_);
-      free_.push_back(tile);
-    }
+    const std::scoped_lock lock(mutex_);
+    free_.push_back(tile);
   }
 
  private:
   std::mutex mutex_;
   std::vector<std::shared_ptr<FinishedTile>> free_;
-};
-
-/// Lets tiles in, in their order, as long as there is room for their points, and one in any case: the tiles
-/// of a very dense scan are worked on one after the other. The first tile inside can always go on, so none
-/// waits for ever.
-class TilesInWork {
- public:
-  void enter(std::uint64_t points) {
-    std::unique_lock lock(mutex_);
-    left_.wait(lock, [&] { return points_ == 0 || points_ + points <= kMostInWork; });
-    points_ += points;
-  }
-  void leave(std::uint64_t points) {
-    const std::scoped_lock lock(mutex_);
-    points_ -= points;
-    left_.notify_one();
-  }
-  /// Leaves at the end of its scope, however that ends.
-  class Exit {
-   public:
-    Exit(TilesInWork& tiles, std::uint64_t points) : tiles_(tiles), points_(points) {}
-    ~Exit() { tiles_.leave(points_); }
-    Exit(const Exit&) = delete;
-    Exit& operator=(const Exit&) = delete;
-
-   private:
-    TilesInWork& tiles_;
-    std::uint64_t points_;
-  };
-
- private:
-  std::mutex mutex_;
-  std::condition_variable left_;
-  std::uint64_t points_ = 0;
 };
 
 /// What one thread needs to class tiles.
@@ -124,7 +89,20 @@ void class_tile(const TiledScan& scan, const KeptTile& tile, const UnitScale& sc
   scan.store->gather(tile.tile, workshop.points);
   workshop.grid.build(workshop.points, place_of(scan, tile), scale);
   const std::vector<VoxelSurface>& surfaces = workshop.finder.find(workshop.grid, scale, finished.estimates);
-  finished.refused = make_cloud_tile(workshop.grid, surfaces, scan.store->has_hints(), finished.cloud);
+  const bool normals = scan.store->has_hints();
+  if (normals) {
+    NormalsCheck check;
+    check.add(workshop.grid, surfaces);
+    finished.refused = check.refused();
+  }
+  make_cloud_part(workshop.grid, surfaces, normals && !finished.refused, finished.cloud);
+}
+
+void class_large_tile(const TiledScan& scan, const KeptTile& tile, const UnitScale& scale,
+                      const IngestParams& params, FinishedTile& finished) {
+  finished.large = std::make_unique<LargeTile>(*scan.store, tile.tile, place_of(scan, tile), scale, params,
+                                               scan.band_points);
+  finished.refused = finished.large->find_surfaces(finished.estimates);
 }
 
 }  // namespace
@@ -150,12 +128,11 @@ CloudHeader header_of(const TiledScan& scan, const std::vector<Vec3>& stations, 
   return header;
 }
 
-SurfaceSummary class_tiles(const TiledScan& scan, const IngestParams& params,
-                           const std::function<void(const CloudTile&)>& take, const Advance& advance) {
+SurfaceSummary class_tiles(const TiledScan& scan, const IngestParams& params, const TakePart& take,
+                           const Advance& advance) {
   const UnitScale scale(params.voxel_edge_m);
   tbb::enumerable_thread_specific<Workshop> workshops([&] { return Workshop(params); });
   FinishedTiles tiles;
-  TilesInWork in_work;
   SurfaceSummary summary;
   std::size_t next = 0;
   const auto tokens = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()) + 1;
@@ -164,30 +141,33 @@ SurfaceSummary class_tiles(const TiledScan& scan, const IngestParams& params,
       flow.stop();
       return std::size_t{0};
     }
-    in_work.enter(scan.tiles[next].points);
     return next++;
   };
-  const auto class_one = [&](std::size_t tile) {
+  const auto class_one = [&](std::size_t index) {
     std::shared_ptr<FinishedTile> finished = tiles.take();
-    Workshop& workshop = workshops.local();
-    try {
-      class_tile(scan, scan.tiles[tile], scale, workshop, *finished);
-    } catch (...) {
-      in_work.leave(scan.tiles[tile].points);  // or the next one would wait for ever
-      throw;
-    }
-    if (scan.tiles[tile].points >= kLargeTile) {
-      workshop = Workshop(params);
+    const KeptTile& tile = scan.tiles[index];
+    // One that is not much larger than a band is worked on faster as a whole.
+    if (tile.points > 2 * scan.band_points) {
+      class_large_tile(scan, tile, scale, params, *finished);
+    } else {
+      class_tile(scan, tile, scale, workshops.local(), *finished);
     }
     return finished;
   };
   const auto hand_over = [&](const std::shared_ptr<FinishedTile>& tile) {
     summary.estimates.add(tile->estimates);
     summary.tiles_with_refused_normals += tile->refused ? 1 : 0;
-    const TilesInWork::Exit exit(in_work, tile->cloud.size());
-    take(tile->cloud);
-    if (advance) {
-      advance(tile->cloud.size());
+    const auto take_part = [&](const CloudTile& part, bool last) {
+      take(part, last);
+      if (advance) {
+        advance(part.size());
+      }
+    };
+    if (tile->large) {
+      tile->large->hand_over(take_part);
+      tile->large.reset();
+    } else {
+      take_part(tile->cloud, true);
     }
     tiles.give_back(tile);
   };

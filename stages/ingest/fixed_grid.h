@@ -42,4 +42,16 @@ class UnitScale {
   double voxel_edge_m_;
 };
 
+/// Rows of columns of a tile with its halo, from `begin` to before `end`; all of them by default.
+struct TileRows {
+  int begin = 0;
+  int end = fixed_grid::kTileVoxels + 2 * fixed_grid::kHaloVoxels;
+};
+
+/// The row of a point in tile row `iy` or its halo.
+inline int row_of(float y, std::int32_t iy, const UnitScale& scale) {
+  using namespace fixed_grid;
+  return (scale.units(y) - (iy * kTileUnits - kHaloUnits)) >> kVoxelBits;
+}
+
 }  // namespace roomcut

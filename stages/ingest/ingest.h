@@ -27,9 +27,11 @@ struct IngestCounts {
 struct ScanSettings {
   std::string unit = "m";
   std::string up = "z";
-  std::uint64_t memory_bytes = std::uint64_t{512} << 20;  ///< points held in memory between the passes
+  std::uint64_t memory_bytes = std::uint64_t{256} << 20;  ///< points held in memory between the passes
   std::filesystem::path scratch_folder;                   ///< for points beyond the memory budget
   std::string name;                                       ///< of the scan, for messages
+  std::uint64_t band_points =
+      1'000'000;  ///< of a tile with more than twice as many, so many are held at a time
 };
 
 using Advance = std::function<void(std::uint64_t)>;
@@ -40,7 +42,8 @@ struct TiledScan {
   std::unique_ptr<TileStore> store;
   std::vector<KeptTile> tiles;  ///< by (iy, ix)
   IngestCounts counts;
-  double step_m = 0;  ///< quantisation of the coordinates
+  double step_m = 0;              ///< quantisation of the coordinates
+  std::uint64_t band_points = 0;  ///< as in ScanSettings
 };
 
 /// First pass: reads every block once, in parallel, and sorts its points into tiles. `advance(1)` is called
@@ -58,10 +61,13 @@ struct SurfaceSummary {
   std::uint64_t tiles_with_refused_normals = 0;
 };
 
+/// Receives the points of a tile, those of one with many points in several parts; true: the last of its tile.
+using TakePart = std::function<void(const CloudTile&, bool)>;
+
 /// Second pass: classes the points tile by tile, in parallel, and gives the tiles to `take` one after another
-/// in order. `advance(points)` is called per tile. Memory: a few tiles.
-SurfaceSummary class_tiles(const TiledScan& scan, const IngestParams& params,
-                           const std::function<void(const CloudTile&)>& take, const Advance& advance = {});
+/// in order. `advance(points)` is called per part. Memory: a few tiles of band_points each.
+SurfaceSummary class_tiles(const TiledScan& scan, const IngestParams& params, const TakePart& take,
+                           const Advance& advance = {});
 
 /// Noise [m]: the median over the clear planes that scatter less than the two faces of a thin wall would, but
 /// not below what rounded coordinates or 0.1 mm allow; 5 mm when no voxel was a clear plane.

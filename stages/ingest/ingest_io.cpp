@@ -82,7 +82,7 @@ StageInfo ingest_info() {
   info.options = {
       {"up", "z", "The scan's up axis", {"x", "y", "z", "-x", "-y", "-z"}},
       {"unit", "m", "The scan's length unit", {"m", "mm", "cm", "ft"}},
-      {"memory-mib", "512", "Points held in memory between the passes; more go to a scratch file", {}},
+      {"memory-mib", "256", "Points held in memory between the passes; more go to a scratch file", {}},
       {"scan-sha256", "", "Digest of the scan's bytes, when it is known already", {}}};
   return info;
 }
@@ -119,7 +119,7 @@ void run_ingest(StageRun& run, const IngestParams& params) {
   CloudWriter writer(output, run.provenance(), header_of(scan, stations, params));
   Progress classing = run.progress("classing points", scan.counts.kept);
   const SurfaceSummary summary = class_tiles(
-      scan, params, [&](const CloudTile& tile) { writer.append(tile); },
+      scan, params, [&](const CloudTile& part, bool last) { writer.append(part, last); },
       [&](std::uint64_t points) { classing.advance(points); });
   writer.header().noise_m = noise_of(summary.estimates, scan.step_m);
   writer.header().density = density_of(summary.estimates);

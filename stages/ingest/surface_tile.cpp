@@ -22,22 +22,26 @@ Surface surface_of_point(const TileGrid::Point& point, const VoxelSurface& voxel
   return {static_cast<std::uint8_t>(voxel.surface), voxel.azimuth};
 }
 
-/// Calls visit(voxel, first point, last + 1) for the voxels of the tile without its halo.
+/// Calls visit(voxel, first point, last + 1) for the voxels of the last band without the tile's halo.
 template <class Visit>
 void for_own_voxels(const TileGrid& grid, Visit&& visit) {
   const VoxelLevel& level = grid.level(0);
-  const std::vector<std::uint32_t>& first = grid.first_point();
-  for (int iy = level.halo(); iy < level.columns - level.halo(); ++iy) {
-    for (int ix = level.halo(); ix < level.columns - level.halo(); ++ix) {
+  const int halo = level.halo();
+  std::uint32_t first = 0;
+  for (int iy = grid.rows().begin; iy < grid.rows().end; ++iy) {
+    for (int ix = 0; ix < level.columns; ++ix) {
+      const bool own = iy >= halo && iy < level.columns - halo && ix >= halo && ix < level.columns - halo;
       const std::size_t column = level.column(ix, iy);
       for (std::uint32_t voxel = level.begin[column]; voxel < level.begin[column + 1]; ++voxel) {
-        visit(voxel, first[voxel], first[voxel + 1]);
+        const std::uint32_t last = first + level.moments[voxel].points();
+        if (own) visit(voxel, first, last);
+        first = last;
       }
     }
   }
 }
 
-/// Calls visit(point, voxel's surface) for the points of the tile without its halo.
+/// Likewise visit(point, voxel's surface) for the points.
 template <class Visit>
 void for_own_points(const TileGrid& grid, const std::vector<VoxelSurface>& surfaces, Visit&& visit) {
   for_own_voxels(grid, [&](std::uint32_t voxel, std::uint32_t first, std::uint32_t last) {
@@ -45,18 +49,6 @@ void for_own_points(const TileGrid& grid, const std::vector<VoxelSurface>& surfa
       visit(grid.points()[i], surfaces[voxel]);
     }
   });
-}
-
-bool hints_agree(const TileGrid& grid, const std::vector<VoxelSurface>& surfaces) {
-  std::uint64_t both = 0;
-  std::uint64_t equal = 0;
-  for_own_points(grid, surfaces, [&](const TileGrid::Point& point, const VoxelSurface& voxel) {
-    if (voxel.noise > 0 && point.hint != 0) {
-      ++both;
-      equal += (point.hint & 0xff) == static_cast<unsigned>(voxel.surface) ? 1 : 0;
-    }
-  });
-  return static_cast<double>(equal) >= kLeastAgreement * static_cast<double>(both);
 }
 
 void resize(CloudTile& tile, std::size_t points) {
@@ -70,14 +62,25 @@ void resize(CloudTile& tile, std::size_t points) {
 
 }  // namespace
 
-bool make_cloud_tile(const TileGrid& grid, const std::vector<VoxelSurface>& surfaces, bool hints,
+void NormalsCheck::add(const TileGrid& grid, const std::vector<VoxelSurface>& surfaces) {
+  for_own_points(grid, surfaces, [&](const TileGrid::Point& point, const VoxelSurface& voxel) {
+    if (voxel.noise > 0 && point.hint != 0) {
+      ++both_;
+      equal_ += (point.hint & 0xff) == static_cast<unsigned>(voxel.surface) ? 1 : 0;
+    }
+  });
+}
+
+bool NormalsCheck::refused() const {
+  return static_cast<double>(equal_) < kLeastAgreement * static_cast<double>(both_);
+}
+
+void make_cloud_part(const TileGrid& grid, const std::vector<VoxelSurface>& surfaces, bool use_normals,
                      CloudTile& out) {
-  const bool refused = hints && !hints_agree(grid, surfaces);
-  const bool use = hints && !refused;
   std::array<std::size_t, kClasses> next{};
-  if (use) {
+  if (use_normals) {
     for_own_points(grid, surfaces, [&](const TileGrid::Point& point, const VoxelSurface& voxel) {
-      ++next[surface_of_point(point, voxel, use).surface];
+      ++next[surface_of_point(point, voxel, use_normals).surface];
     });
   } else {
     for_own_voxels(grid, [&](std::uint32_t voxel, std::uint32_t first, std::uint32_t last) {
@@ -92,7 +95,7 @@ bool make_cloud_tile(const TileGrid& grid, const std::vector<VoxelSurface>& surf
   }
   resize(out, total);
   for_own_points(grid, surfaces, [&](const TileGrid::Point& point, const VoxelSurface& voxel) {
-    const Surface surface = surface_of_point(point, voxel, use);
+    const Surface surface = surface_of_point(point, voxel, use_normals);
     const std::size_t at = next[surface.surface]++;
     out.x[at] = point.x;
     out.y[at] = point.y;
@@ -101,7 +104,6 @@ bool make_cloud_tile(const TileGrid& grid, const std::vector<VoxelSurface>& surf
     out.azimuth[at] = surface.azimuth;
     out.area[at] = voxel.area;
   });
-  return refused;
 }
 
 }  // namespace roomcut

@@ -6,11 +6,23 @@
 
 namespace roomcut {
 
-/// Writes the tile's own points (not its halo's) into `out`, sorted by class, then voxel, then file order. A
-/// point's own normal, where the file has one, decides its class and azimuth; but where the normals of a tile
-/// contradict the planes that its points lie on (more than 30 % of the points on clear planes), they are left
-/// aside. Returns whether they were.
-bool make_cloud_tile(const TileGrid& grid, const std::vector<VoxelSurface>& surfaces, bool hints,
+/// Whether the file's normals contradict the planes that the points of a tile lie on: more than 30 % of the
+/// points on clear planes. Then they are left aside there.
+class NormalsCheck {
+ public:
+  /// The points of the grid's last band, without the tile's halo.
+  void add(const TileGrid& grid, const std::vector<VoxelSurface>& surfaces);
+  bool refused() const;
+
+ private:
+  std::uint64_t both_ = 0;   ///< points with a normal on a clear plane
+  std::uint64_t equal_ = 0;  ///< of the same class in both
+};
+
+/// Writes the tile's own points (not its halo's) in the grid's last band into `out`, sorted by class, then
+/// voxel, then file order. With `use_normals` a point's own normal, where the file has one, decides its class
+/// and azimuth.
+void make_cloud_part(const TileGrid& grid, const std::vector<VoxelSurface>& surfaces, bool use_normals,
                      CloudTile& out);
 
 }  // namespace roomcut

@@ -30,13 +30,14 @@ void to_begins(std::vector<std::uint32_t>& counts) {
 
 }  // namespace
 
-void TileGrid::find_keys(const TilePoints& points, const TilePlace& place, const UnitScale& scale) {
-  std::int32_t lowest = INT32_MAX;
-  for (const float z : points.z) {
-    lowest = std::min(lowest, scale.units(z));
-  }
+void TileGrid::begin(const TilePlace& place, float lowest_z, const UnitScale& scale) {
   corner_ = {place.ix * kTileUnits - kHaloUnits, place.iy * kTileUnits - kHaloUnits,
-             lowest & ~((1 << (kVoxelBits + kLevels - 1)) - 1)};
+             scale.units(lowest_z) & ~((1 << (kVoxelBits + kLevels - 1)) - 1)};
+  levels_[0].clear(0);
+  levels_[0].begin.reserve(std::size_t{kColumns} * kColumns + 1);
+}
+
+void TileGrid::find_keys(const TilePoints& points, const TilePlace& place, const UnitScale& scale) {
   const bool all =
       std::all_of(place.layers.begin(), place.layers.end(), [](auto l) { return l == kAllLayers; });
   column_.resize(points.size());
@@ -63,7 +64,7 @@ void TileGrid::find_keys(const TilePoints& points, const TilePlace& place, const
 
 /// A counting sort by column, and then in each column, within the cache, by height: one copy of the tile.
 /// Afterwards columns_begin_ holds the ends.
-void TileGrid::sort_points(const TilePoints& points) {
+void TileGrid::sort_keyed(const TilePoints& points) {
   sorted_.resize(columns_begin_.back());
   const bool hints = !points.hint.empty();
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -103,20 +104,16 @@ void TileGrid::sort_column(std::size_t first, std::size_t last) {
 
 void TileGrid::sum_moments(const UnitScale& scale) {
   VoxelLevel& level = levels_[0];
-  level.clear(0);
-  level.begin.reserve(std::size_t{kColumns} * kColumns + 1);
-  level.reserve(sorted_.size());
-  first_point_.clear();
-  first_point_.reserve(sorted_.size() + 1);
   const auto relative = [&](float metres, std::size_t axis) {
     return static_cast<std::uint32_t>(scale.units(metres) - corner_[axis]);
   };
   std::size_t i = 0;
-  for (std::size_t column = 0; column + 1 < columns_begin_.size(); ++column) {
+  const auto first_column = static_cast<std::size_t>(rows_.begin) * kColumns;
+  const auto last_column = static_cast<std::size_t>(rows_.end) * kColumns;
+  for (std::size_t column = first_column; column < last_column; ++column) {
     level.begin.push_back(static_cast<std::uint32_t>(level.size()));
     for (const std::size_t end = columns_begin_[column]; i < end;) {
       const std::uint16_t height = sorted_[i].height;
-      first_point_.push_back(static_cast<std::uint32_t>(i));
       Moments sum;
       for (; i < end && sorted_[i].height == height; ++i) {
         sum.add_point(relative(sorted_[i].x, 0), relative(sorted_[i].y, 1), relative(sorted_[i].z, 2));
@@ -125,17 +122,28 @@ void TileGrid::sum_moments(const UnitScale& scale) {
       level.moments.push_back(sum);
     }
   }
-  level.begin.push_back(static_cast<std::uint32_t>(level.size()));
-  first_point_.push_back(static_cast<std::uint32_t>(sorted_.size()));
 }
 
-void TileGrid::build(const TilePoints& points, const TilePlace& place, const UnitScale& scale) {
+void TileGrid::sort_rows(const TilePoints& points, const TileRows& rows, const TilePlace& place,
+                         const UnitScale& scale) {
+  rows_ = rows;
   find_keys(points, place, scale);
-  sort_points(points);
-  sum_moments(scale);
+  sort_keyed(points);
+}
+
+void TileGrid::finish() {
+  levels_[0].begin.push_back(static_cast<std::uint32_t>(levels_[0].size()));
   for (std::size_t i = 0; i + 1 < levels_.size(); ++i) {
     coarsen(levels_[i], levels_[i + 1]);
   }
+}
+
+void TileGrid::build(const TilePoints& points, const TilePlace& place, const UnitScale& scale) {
+  begin(place, *std::min_element(points.z.begin(), points.z.end()), scale);
+  sort_rows(points, {}, place, scale);
+  levels_[0].reserve(sorted_.size());
+  sum_moments(scale);
+  finish();
 }
 
 std::array<std::uint32_t, 3> TileGrid::centre(int level, int ix, int iy, std::uint16_t z) const {

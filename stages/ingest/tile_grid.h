@@ -18,7 +18,9 @@ struct TilePlace {
   std::array<std::uint64_t, 9> layers{};
 };
 
-/// The points of one tile and its halo sorted by voxel, and their moments at every level.
+/// The points of one tile and its halo sorted by voxel, and their moments at every level. A tile with many
+/// points is built from bands of rows, one after the other: their moments stay, only the last band's points
+/// do.
 class TileGrid {
  public:
   struct Point {
@@ -30,9 +32,17 @@ class TileGrid {
   /// Sorts by (column, height); points of one voxel keep file order. Time linear in the points.
   void build(const TilePoints& points, const TilePlace& place, const UnitScale& scale);
 
+  /// The same in bands: begin(), from below without a gap sort_rows() and sum_moments(), finish(). Afterwards
+  /// bands may be sorted again. `lowest_z` [m] is that of all points.
+  void begin(const TilePlace& place, float lowest_z, const UnitScale& scale);
+  void sort_rows(const TilePoints& points, const TileRows& rows, const TilePlace& place,
+                 const UnitScale& scale);
+  void sum_moments(const UnitScale& scale);
+  void finish();
+
+  /// Of the last band.
   const std::vector<Point>& points() const { return sorted_; }
-  /// Points of voxel v of level 0: [first_point()[v], first_point()[v + 1]).
-  const std::vector<std::uint32_t>& first_point() const { return first_point_; }
+  const TileRows& rows() const { return rows_; }
   VoxelLevel& level(int i) { return levels_[static_cast<std::size_t>(i)]; }
   const VoxelLevel& level(int i) const { return levels_[static_cast<std::size_t>(i)]; }
   /// Centre of a voxel in units from the tile's corner, as the moments count.
@@ -40,9 +50,8 @@ class TileGrid {
 
  private:
   void find_keys(const TilePoints& points, const TilePlace& place, const UnitScale& scale);
-  void sort_points(const TilePoints& points);
+  void sort_keyed(const TilePoints& points);
   void sort_column(std::size_t first, std::size_t last);
-  void sum_moments(const UnitScale& scale);
 
   std::array<std::int32_t, 3>
       corner_{};  ///< of the halo, local units; the base in height is a coarsest voxel's
@@ -50,7 +59,7 @@ class TileGrid {
   std::vector<std::uint32_t> columns_begin_;
   std::vector<std::uint32_t> heights_begin_;  ///< of one column
   std::vector<Point> column_points_, sorted_;
-  std::vector<std::uint32_t> first_point_;
+  TileRows rows_;
   std::array<VoxelLevel, fixed_grid::kLevels> levels_;
 };
 

@@ -163,6 +163,7 @@ TiledScan tile_scan(const ScanReader& reader, const ScanSettings& settings, cons
                     const Advance& advance) {
   const UnitScale scale(params.voxel_edge_m);
   TiledScan scan;
+  scan.band_points = settings.band_points;
   {
     const ScanBlock sample = first_useful_block(reader);
     scan.frame = choose_frame(sample, settings.unit, settings.up, params.voxel_edge_m);

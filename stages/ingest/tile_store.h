@@ -4,13 +4,14 @@
 #include <array>
 #include <atomic>
 #include <filesystem>
+#include <functional>
 #include <memory>
-#include <mutex>
 #include <vector>
 
 #include "stages/ingest/ghosts.h"
 #include "stages/ingest/params.h"
 #include "stages/ingest/scan_frame.h"
+#include "stages/ingest/scratch_file.h"
 
 namespace roomcut {
 
@@ -20,6 +21,19 @@ struct TilePoints {
   std::vector<std::uint16_t>
       hint;  ///< class and azimuth from the file's normals (normal_hint.h); empty without normals
   std::size_t size() const { return x.size(); }
+  void resize(std::size_t points, bool hints) {
+    for (std::vector<float>* axis : {&x, &y, &z}) {
+      axis->resize(points);
+    }
+    hint.resize(hints ? points : 0);
+  }
+};
+
+/// Points of a tile or its halo that lie together in the store; `hint` null without normals.
+struct TileRun {
+  const float *x, *y, *z;
+  const std::uint16_t* hint;
+  std::size_t points;
 };
 
 /// Points of one block sorted by tile: the unit that is held in memory or written to the scratch file.
@@ -83,17 +97,18 @@ class TileStore {
  public:
   /// The scratch file is made in `folder` when it is needed.
   TileStore(std::filesystem::path folder, std::size_t blocks, std::uint64_t memory_bytes, bool hints);
-  ~TileStore();
-  TileStore(const TileStore&) = delete;
-  TileStore& operator=(const TileStore&) = delete;
 
   /// Takes over block `index`. Thread-safe for different blocks. Errors: kCannotWrite.
   void put(std::size_t index, SortedBlock&& block);
   /// To be called once after the last put(): sorts the runs by tile. Returns the points per cell of the
   /// window.
   std::vector<CellCount> index_tiles();
-  /// Points of a tile and its halo in file order. Thread-safe.
+  using VisitRun = std::function<void(const TileRun&)>;
+  /// Calls visit(run) for the points of a tile and its halo, in file order. Thread-safe, like gather().
+  void for_runs(std::uint32_t tile, const VisitRun& visit) const;
+  /// All of them.
   void gather(std::uint32_t tile, TilePoints& points) const;
+  const std::filesystem::path& scratch_folder() const { return scratch_.folder(); }
   bool has_hints() const { return hints_; }
   std::uint64_t spilled_bytes() const { return file_end_; }
 
@@ -104,16 +119,14 @@ class TileStore {
     std::uint32_t points;
     std::uint64_t offset;
   };
-  void spill(SortedBlock& block);
+  std::vector<RunRef>::const_iterator first_run(std::uint32_t tile) const;
 
-  std::filesystem::path folder_;
   std::vector<SortedBlock> blocks_;
   std::vector<RunRef> runs_;
   std::uint64_t budget_;
   std::atomic<std::uint64_t> held_{0};
   std::atomic<std::uint64_t> file_end_{0};
-  std::once_flag file_made_;
-  int descriptor_ = -1;
+  ScratchFile scratch_;
   bool hints_;
 };
 

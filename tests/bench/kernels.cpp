@@ -59,7 +59,7 @@ void class_points(benchmark::State& state, const Material& material) {
   const TiledScan scan = tile_scan(*material.scan, {}, {});
   for (auto step : state) {
     std::size_t points = 0;
-    class_tiles(scan, {}, [&](const CloudTile& tile) { points += tile.size(); });
+    class_tiles(scan, {}, [&](const CloudTile& part, bool /*last*/) { points += part.size(); });
     benchmark::DoNotOptimize(points);
   }
   count(state, static_cast<double>(material.header.points));

@@ -148,6 +148,25 @@ TEST_F(CloudIo, writes_equal_clouds_to_equal_bytes) {
   EXPECT_LE(static_cast<double>(std::filesystem::file_size(path_)), 20 * 500 + 20'000);
 }
 
+TEST_F(CloudIo, takes_a_tile_in_parts) {
+  const std::vector<CloudTile> tiles{tile_of(5, 1), tile_of(2, 6), tile_of(0, 0), tile_of(1000, 10)};
+  const std::vector<CloudTile> joined{tile_of(7, 1), tile_of(0, 0), tile_of(1000, 10)};
+  CloudHeader header = header_for(joined);
+  {
+    CloudWriter writer(path_, Provenance{"ingest", 1, "{}", "", {}}, header);
+    writer.append(tiles[0], false);
+    for (std::size_t i = 1; i < tiles.size(); ++i) {
+      writer.append(tiles[i]);
+    }
+    writer.finish();
+  }
+  const CloudReader reader(path_);
+  EXPECT_EQ(reader.header().tile_offset, (std::vector<std::uint64_t>{0, 7, 7, 1007}));
+  CloudTile tile;
+  reader.read_tile(0, tile);
+  EXPECT_EQ(tile.x, joined[0].x);
+}
+
 TEST_F(CloudIo, holds_an_empty_cloud) {
   write(path_, {});
   const CloudReader reader(path_);

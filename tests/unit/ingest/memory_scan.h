@@ -105,13 +105,30 @@ struct MadeCloud {
   IngestCounts counts;
 };
 
+inline void append(const CloudTile& part, CloudTile& tile) {
+  const auto join = [](const auto& from, auto& to) { to.insert(to.end(), from.begin(), from.end()); };
+  join(part.x, tile.x);
+  join(part.y, tile.y);
+  join(part.z, tile.z);
+  join(part.surface, tile.surface);
+  join(part.azimuth, tile.azimuth);
+  join(part.area, tile.area);
+}
+
 inline MadeCloud make_cloud(const ScanReader& reader, const ScanSettings& settings = {},
                             const IngestParams& params = {}) {
   MadeCloud cloud;
   const TiledScan scan = tile_scan(reader, settings, params);
   cloud.header = header_of(scan, reader.stations(), params);
   const SurfaceSummary summary =
-      class_tiles(scan, params, [&](const CloudTile& tile) { cloud.tiles.push_back(tile); });
+      class_tiles(scan, params, [&, first = true](const CloudTile& part, bool last) mutable {
+        if (first) {
+          cloud.tiles.push_back(part);
+        } else {
+          append(part, cloud.tiles.back());
+        }
+        first = last;
+      });
   cloud.header.noise_m = noise_of(summary.estimates, scan.step_m);
   cloud.header.density = density_of(summary.estimates);
   cloud.counts = scan.counts;
