@@ -99,7 +99,9 @@ FirstHit first_hit(const std::vector<Crossing>& crossings) {
     }
     hit.front += left * c.front;
     hit.back += left * c.back;
-    hit.near_back += left * c.back * std::exp(-c.distance / kThickness);
+    if (c.back > 0) {  // few are: the rest need no exponential function
+      hit.near_back += left * c.back * std::exp(-c.distance / kThickness);
+    }
     left *= 1 - c.front - c.back;
   }
   return hit;
