@@ -33,6 +33,7 @@ class LargeTile {
   struct Record {
     float x, y, z;
     std::uint16_t hint;
+    std::uint16_t unused = 0;  // no byte of the file is left to chance
   };
   void cut_bands(const std::vector<std::uint32_t>& row_points, std::uint64_t band_points);
   void fill_file();
