@@ -27,7 +27,7 @@ struct Observation {
 /// positions inside the bin (lower 40): one order-free addition per point, and means without the bias of bin
 /// centres.
 struct OffsetHistogram {
-  static constexpr int kBins = 60;
+  static constexpr int kBins = 50;
   static constexpr int kSumBits = 40;
   static constexpr std::uint64_t kSteps = 1024;  ///< of position inside a bin
 
