@@ -55,7 +55,7 @@ RobustOffset robust_offset(std::span<const std::uint64_t> histogram, double half
 /// planes alone would push the two faces apart. Patches are as long as the line's raster and about 50 cm
 /// high, higher where points are sparse (about 20 a patch), and never reach over a level: a wall that leans,
 /// furniture that hides its lower part, and another storey's wall show as patches that differ, not as a
-/// smeared histogram. Memory: 10 kB per square metre of surface. Deterministic for any number of threads:
+/// smeared histogram. Memory: 8 kB per square metre of surface. Deterministic for any number of threads:
 /// integer sums.
 class LineObserver {
  public:
