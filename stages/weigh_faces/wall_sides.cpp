@@ -16,7 +16,8 @@ constexpr double kContinues = 0.3;  // coverage with which a wall goes on into t
 constexpr double kPrior = 0.1;      // coverage below which neither side is believed
 constexpr double kLevelWeight = 5;  // log-odds of a floor that is whole on one side and missing on the other
 constexpr double kStripWeight = 5;  // the same for the strips
-constexpr double kSliver = 0.1;     // [m] how far off the next face is still the wall's side
+constexpr double kNearlyEqual = 0.03;  // [m] lines nearer than this are one wall's face
+constexpr double kSliver = 0.1;        // [m] how far off the next face is still the wall's side
 
 }  // namespace
 
@@ -44,22 +45,31 @@ class Sides {
 }  // namespace
 
 FacesBeside::FacesBeside(const CellComplex& complex, std::size_t edge, bool left, double beside_m) {
-  std::size_t passed = 0;
-  nearest_ = walk_beside(complex, edge, left, beside_m, [&](std::size_t, bool) { ++passed; });
+  const auto count = [&](double distance_m) {
+    std::size_t crossed = 0;
+    walk_beside(complex, edge, left, distance_m, [&](std::size_t, bool) { ++crossed; });
+    return crossed;
+  };
+  const std::size_t equal = count(kNearlyEqual);
+  const std::size_t beside = count(beside_m);
+  nearest_ = walk_beside(complex, edge, left, kNearlyEqual);
+  std::size_t crossed = 0;
   walk_beside(complex, edge, left, std::max(beside_m, kSliver), [&](std::size_t other, bool from_left) {
-    if (passed > 0) {
-      --passed;
-      return;
-    }
     const CellComplex::Edge& e = complex.edges[other];
-    beyond_.push_back({e.line, from_left ? e.right : e.left});
+    if (++crossed > equal) {
+      beyond_.push_back({other, from_left ? e.right : e.left, crossed <= beside});
+    }
   });
 }
 
-std::int32_t FacesBeside::face(const CellComplex& complex, std::size_t layer) const {
+std::int32_t FacesBeside::face(const CellComplex& complex, const FaceWeights& weights,
+                               std::size_t layer) const {
   std::int32_t found = nearest_;
   for (const Step& step : beyond_) {
-    if (step.line < 0 || complex.lines[static_cast<std::size_t>(step.line)].carries(layer)) {
+    const std::int32_t line = complex.edges[step.edge].line;
+    const bool open = line >= 0 && !complex.lines[static_cast<std::size_t>(line)].carries(layer);
+    const bool within = step.within && weights.wall_omega[complex.wall_face(step.edge, layer)] < kContinues;
+    if (!open && !within) {
       break;
     }
     found = step.face;
@@ -70,8 +80,8 @@ std::int32_t FacesBeside::face(const CellComplex& complex, std::size_t layer) co
 double left_probability(const CellComplex& complex, const FaceWeights& weights, std::size_t edge,
                         std::size_t layer, const StripShares& strips, const FacesBeside& left,
                         const FacesBeside& right) {
-  const std::int32_t left_face = left.face(complex, layer);
-  const std::int32_t right_face = right.face(complex, layer);
+  const std::int32_t left_face = left.face(complex, weights, layer);
+  const std::int32_t right_face = right.face(complex, weights, layer);
   const auto goes_on = [&](std::size_t k) {
     return weights.wall_omega[complex.wall_face(edge, k)] > kContinues;
   };

@@ -14,17 +14,20 @@ struct StripShares {
   double left = 0, right = 0;
 };
 
-/// The faces of the plan beside an edge: `beside_m` off it, or further, up to 10 cm, as long as lines that
-/// carry nothing in the layer cut slivers off.
+/// The face of the plan beside an edge: behind lines that are nearly equal (3 cm), up to `beside_m` off as
+/// far as no wall was seen on the way (the other face of a thin wall), and further, up to 10 cm, as long as
+/// lines that carry nothing in the layer cut slivers off.
 class FacesBeside {
  public:
   FacesBeside(const CellComplex& complex, std::size_t edge, bool left, double beside_m);
-  /// -1 = beyond the bounding box.
-  std::int32_t face(const CellComplex& complex, std::size_t layer) const;
+  /// -1 = beyond the bounding box. Needs wall_omega.
+  std::int32_t face(const CellComplex& complex, const FaceWeights& weights, std::size_t layer) const;
 
  private:
   struct Step {
-    std::int32_t line, face;  // the line that is crossed, the face behind
+    std::size_t edge;   // that is crossed
+    std::int32_t face;  // behind it
+    bool within;        // beside_m
   };
   std::int32_t nearest_;
   std::vector<Step> beyond_;

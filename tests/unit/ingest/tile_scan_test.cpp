@@ -234,8 +234,11 @@ TEST(TileScan, refuses_extents_that_only_a_wrong_unit_explains) {
 
 TEST(TileScan, lets_flat_scans_pass_for_the_stages_that_know_what_is_missing) {
   std::vector<Vec3> floor;
-  for (int i = 0; i < 10'000; ++i) {
-    floor.emplace_back(i % 100 * 0.05, i / 100 * 0.05, 0);
+  floor.reserve(10'000);
+  for (int row = 0; row < 100; ++row) {
+    for (int column = 0; column < 100; ++column) {
+      floor.emplace_back(0.05 * column, 0.05 * row, 0);
+    }
   }
   const MadeCloud cloud = make_cloud(MemoryScan(floor));
   std::size_t horizontal = 0;

@@ -88,6 +88,19 @@ TEST(WeighFaces, ThinWallFacesTurnTheirBacksToEachOther) {
   }
 }
 
+TEST(WeighFaces, AcrossAThinWallTheOtherRoomIsNotTheWallsBackSide) {
+  // 6 cm of wall and 2 cm of noise: what lies 8 cm beside a face is the other room, whose ceiling is lower.
+  const TwoRooms scene(0.06, {-0.3, 0, 2.3, 2.6, 2.9});
+  SampledCloud cloud(400, 0.02);
+  cloud.room(0, 4, 0, 4, 0, 2.6);
+  cloud.room(4.06, 8.06, 0, 4, 0, 2.3);
+  const FaceWeights w = weigh(scene.complex, cloud);
+  const std::size_t west = scene.complex.wall_face(scene.west(), 1);
+  const std::size_t east = scene.complex.wall_face(scene.east(), 1);
+  EXPECT_GT(w.wall_left[west], 0.8 * w.wall_omega[west]);
+  EXPECT_GT(w.wall_right[east], 0.8 * w.wall_omega[east]);
+}
+
 TEST(WeighFaces, ADoorsHeadAndThresholdDoNotTurnItsWall) {
   // The west room lies lower; a ceiling elsewhere is as high as the door.
   const TwoRooms scene(0.1, {-0.3, 0, 0.2, 2.05, 2.6, 2.9});
