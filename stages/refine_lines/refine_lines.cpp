@@ -9,11 +9,11 @@
 
 #include "common/errors/codes.h"
 #include "stages/refine_lines/adjust.h"
-#include "stages/refine_lines/bends.h"
 #include "stages/refine_lines/line_faces.h"
+#include "stages/refine_lines/line_item.h"
 #include "stages/refine_lines/merge_lines.h"
+#include "stages/refine_lines/new_lines.h"
 #include "stages/refine_lines/observe.h"
-#include "stages/refine_lines/split_lines.h"
 
 namespace roomcut {
 
@@ -29,19 +29,6 @@ bool is_users(const WallLine& line) {
   return line.locked || line.source == LineSource::kEdited || line.source == LineSource::kAdded;
 }
 
-/// A surviving line on its way through the refinement.
-struct Item {
-  WallLine wall;
-  std::vector<LineFaces> faces;  ///< one entry; of a merged line those of all that went into it
-  std::vector<Observation> observations;
-  LineProblem problem;
-  LineFit fit;
-  bool constant = false;
-  bool users = false;
-  bool keeps_ends = false;  ///< of a line of the user's, or a wall seen from one side
-  double area_m2 = 0;
-};
-
 }  // namespace
 
 struct LineRefiner::State {
@@ -56,15 +43,13 @@ struct LineRefiner::State {
   std::unique_ptr<LineObserver> observer;
   Refinement result;
 
-  void split(std::vector<Item>& items);
-  void add_bends(std::vector<Item>& items);
-  void solve_each(std::vector<Item>& items) const;
-  void solve_together(std::vector<Item>& items);
-  bool merge_near(std::vector<Item>& items);
-  LinePrior prior_of(const Item& item) const {
+  void solve_each(std::vector<LineItem>& items) const;
+  void solve_together(std::vector<LineItem>& items);
+  bool merge_near(std::vector<LineItem>& items);
+  LinePrior prior_of(const LineItem& item) const {
     return item.users && params.edited_lines == "prior" ? kUsersPrior : LinePrior{band, kLoosePrior_rad};
   }
-  bool is_held(const Item& item) const {
+  bool is_held(const LineItem& item) const {
     return item.wall.locked || (item.users && params.edited_lines == "locked") ||
            item.observations.size() < kFewestObservations;
   }
@@ -133,99 +118,8 @@ void LineRefiner::add(const CloudTile& tile) {
   state_->observer->add(tile);
 }
 
-/// Lines of the user's stay whole: they said what is one wall.
-void LineRefiner::State::split(std::vector<Item>& items) {
-  std::vector<double> heights;
-  std::set<std::string> ids;
-  for (std::size_t layer = 0; layer < complex.layers(); ++layer) {
-    heights.push_back(complex.height(layer));
-  }
-  for (const Item& item : items) {
-    ids.insert(item.wall.id);
-  }
-  const std::size_t whole = items.size();
-  for (std::size_t i = 0; i < whole; ++i) {
-    if (items[i].users || items[i].faces.empty()) {
-      continue;
-    }
-    std::vector<LinePart> parts =
-        split_line(items[i].faces.front(), items[i].observations, heights, prior_of(items[i]), apart);
-    if (parts.size() == 1) {
-      continue;
-    }
-    const std::string id = items[i].wall.id;
-    std::vector<std::vector<OneSidedWall*>> one_sided_of(parts.size());
-    for (OneSidedWall& wall : result.one_sided) {
-      if (wall.wall_id == id) {
-        const auto nearest = std::min_element(
-            parts.begin(), parts.end(),
-            [&](const LinePart& a, const LinePart& b) { return steps_to(a, wall) < steps_to(b, wall); });
-        one_sided_of[static_cast<std::size_t>(nearest - parts.begin())].push_back(&wall);
-      }
-    }
-    for (std::size_t k = parts.size(); k-- > 0;) {
-      Item part = items[i];
-      part.area_m2 = parts[k].faces.area_m2;
-      part.wall.levels = levels_of(parts[k], items[i].wall.levels);
-      part.faces = {std::move(parts[k].faces)};
-      part.observations = std::move(parts[k].observations);
-      for (int number = 1; k > 0 && !ids.insert(part.wall.id).second; ++number) {
-        part.wall.id = id + "." + std::to_string(number);
-      }
-      part.keeps_ends = !one_sided_of[k].empty();
-      for (OneSidedWall* wall : one_sided_of[k]) {
-        wall->wall_id = part.wall.id;
-      }
-      if (k == 0) {
-        items[i] = std::move(part);
-        break;
-      }
-      ++result.split;
-      items.push_back(std::move(part));
-    }
-  }
-}
-
-void LineRefiner::State::add_bends(std::vector<Item>& items) {
-  std::vector<double> heights;
-  std::vector<FittedLine> lines;
-  std::vector<std::size_t> of_line;
-  std::set<std::string> ids;
-  for (std::size_t layer = 0; layer < complex.layers(); ++layer) {
-    heights.push_back(complex.height(layer));
-  }
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    const Item& item = items[i];
-    ids.insert(item.wall.id);
-    if (!item.faces.empty() && item.faces.front().bins > 0) {
-      lines.push_back({posed(item.problem.line, item.problem.centre, item.fit.pose), &item.faces.front(),
-                       &item.observations});
-      of_line.push_back(i);
-    }
-  }
-  std::vector<Item> added;
-  for (Bend& bend : find_bends(lines, heights)) {
-    Item item = items[of_line[bend.parent]];
-    const std::string id = item.wall.id;
-    for (int number = 1; !ids.insert(item.wall.id).second; ++number) {
-      item.wall.id = id + "." + std::to_string(number);
-    }
-    item.wall.a = bend.faces.line.at(bend.faces.t0);
-    item.wall.b = bend.faces.line.at(bend.faces.t1);
-    item.users = item.keeps_ends = false;
-    item.wall.locked = false;
-    item.wall.source = LineSource::kRefined;
-    item.area_m2 = bend.faces.area_m2;
-    item.faces = {std::move(bend.faces)};
-    item.observations = std::move(bend.observations);
-    added.push_back(std::move(item));
-  }
-  result.bends = static_cast<int>(added.size());
-  items.insert(items.end(), std::make_move_iterator(added.begin()), std::make_move_iterator(added.end()));
-}
-
-void LineRefiner::State::solve_each(std::vector<Item>& items) const {
-  for (Item& item : items) {
+void LineRefiner::State::solve_each(std::vector<LineItem>& items) const {
+  for (LineItem& item : items) {
     item.constant = is_held(item);
     item.problem = make_problem(item.wall.line(), item.wall.centre(), item.observations, prior_of(item));
     item.fit = fit_line(item.problem);
@@ -235,10 +129,10 @@ void LineRefiner::State::solve_each(std::vector<Item>& items) const {
   }
 }
 
-void LineRefiner::State::solve_together(std::vector<Item>& items) {
+void LineRefiner::State::solve_together(std::vector<LineItem>& items) {
   Adjustment adjustment;
   std::vector<Direction> directions;
-  for (const Item& item : items) {
+  for (const LineItem& item : items) {
     adjustment.lines.push_back(item.problem);
     adjustment.constant.push_back(item.constant);
     adjustment.poses.push_back(item.fit.pose);
@@ -257,11 +151,11 @@ void LineRefiner::State::solve_together(std::vector<Item>& items) {
   }
 }
 
-bool LineRefiner::State::merge_near(std::vector<Item>& items) {
+bool LineRefiner::State::merge_near(std::vector<LineItem>& items) {
   std::vector<MergeCandidate> candidates;
   std::vector<std::size_t> of_item;
   for (std::size_t i = 0; i < items.size(); ++i) {
-    const Item& item = items[i];
+    const LineItem& item = items[i];
     if (!item.faces.empty() && item.faces.front().bins > 0) {
       candidates.push_back({posed(item.problem.line, item.problem.centre, item.fit.pose), item.problem.centre,
                             std::sqrt(item.fit.covariance.shift_shift), &item.faces.front(), item.users,
@@ -275,8 +169,8 @@ bool LineRefiner::State::merge_near(std::vector<Item>& items) {
     if (into[k] == k) {
       continue;
     }
-    Item& weak = items[of_item[k]];
-    Item& strong = items[of_item[into[k]]];
+    LineItem& weak = items[of_item[k]];
+    LineItem& strong = items[of_item[into[k]]];
     strong.observations.insert(strong.observations.end(), weak.observations.begin(), weak.observations.end());
     strong.faces.insert(strong.faces.end(), weak.faces.begin(), weak.faces.end());
     strong.area_m2 += weak.area_m2;
@@ -296,7 +190,7 @@ bool LineRefiner::State::merge_near(std::vector<Item>& items) {
     gone[of_item[k]] = true;
     ++result.merged;
   }
-  std::vector<Item> left;
+  std::vector<LineItem> left;
   for (std::size_t i = 0; i < items.size(); ++i) {
     if (!gone[i]) {
       left.push_back(std::move(items[i]));
@@ -307,77 +201,11 @@ bool LineRefiner::State::merge_near(std::vector<Item>& items) {
   return merged_any;
 }
 
-namespace {
-
-/// The interval that the line must have in the second pass: everywhere it carries surface; a user's line also
-/// where drawn.
-void set_ends(WallLine& wall, const Item& item, const Line2& line) {
-  std::vector<Vec2> places;
-  for (const LineFaces& faces : item.faces) {
-    places.push_back(faces.line.at(faces.t0));
-    places.push_back(faces.line.at(faces.t1));
-  }
-  if (item.keeps_ends) {
-    places.push_back(wall.a);
-    places.push_back(wall.b);
-  }
-  double low = line.along(places.front());
-  double high = low;
-  for (const Vec2& place : places) {
-    low = std::min(low, line.along(place));
-    high = std::max(high, line.along(place));
-  }
-  wall.a = line.at(low);
-  wall.b = line.at(high);
-}
-
-/// Length of the bins along the line that have at least one observation [m].
-double covered_length(const Item& item, const Line2& line) {
-  const double bin = item.faces.empty() ? 1 : item.faces.front().bin_m;
-  std::set<long> bins;
-  for (const Observation& o : item.observations) {
-    bins.insert(std::lround(std::floor(line.along(o.point) / bin)));
-  }
-  return bin * static_cast<double>(bins.size());
-}
-
-void set_measures(WallLine& wall, const Item& item, const Line2& line) {
-  double squares = 0;
-  double points = 0;
-  for (const Observation& o : item.observations) {
-    const double distance = line.distance(o.point);
-    squares += o.points * (o.scatter_m2 + distance * distance);
-    points += o.points;
-  }
-  wall.rms_m = points > 0 ? std::sqrt(squares / points) : 0;
-  wall.support_m = std::min(wall.length(), covered_length(item, line));
-  // A turn moves the support's centre by its distance from the centroid that the line turns about.
-  const double arm = line.direction().dot(wall.centre() - item.problem.centre);
-  const PoseCovariance& c = item.fit.covariance;
-  wall.sigma_offset_m =
-      std::sqrt(std::max(0.0, c.shift_shift - 2 * arm * c.turn_shift + arm * arm * c.turn_turn));
-  wall.sigma_angle_rad = std::sqrt(c.turn_turn);
-}
-
-WallLine refined(const Item& item) {
-  WallLine wall = item.wall;
-  if (item.constant) {
-    return wall;
-  }
-  const Line2 line = posed(item.problem.line, item.problem.centre, item.fit.pose);
-  set_ends(wall, item, line);
-  set_measures(wall, item, line);
-  wall.source = LineSource::kRefined;
-  return wall;
-}
-
-}  // namespace
-
 Refinement LineRefiner::finish() {
   State& s = *state_;
-  std::vector<Item> items;
+  std::vector<LineItem> items;
   for (std::size_t i = 0; i < s.walls.size(); ++i) {
-    Item item;
+    LineItem item;
     item.wall = s.walls[i];
     item.users = is_users(item.wall);
     item.keeps_ends = item.users || s.one_sided.contains(item.wall.id);
@@ -389,9 +217,10 @@ Refinement LineRefiner::finish() {
     items.push_back(std::move(item));
   }
   s.result.points = s.observer->points();
-  s.split(items);
+  s.result.split = split_items(
+      s.complex, s.apart, [&](const LineItem& item) { return s.prior_of(item); }, s.result.one_sided, items);
   s.solve_each(items);
-  s.add_bends(items);
+  s.result.bends = add_bends(s.complex, items);
   s.solve_each(items);
   s.solve_together(items);
   for (int round = 0; round < kMergeRounds && s.merge_near(items); ++round) {
@@ -400,7 +229,7 @@ Refinement LineRefiner::finish() {
   }
   std::vector<double> shifts;
   s.result.lines = s.kept;
-  for (const Item& item : items) {
+  for (const LineItem& item : items) {
     s.result.lines.lines.push_back(refined(item));
     s.result.observations += static_cast<int>(item.observations.size());
     s.result.held += item.constant ? 1 : 0;
