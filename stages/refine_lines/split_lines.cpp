@@ -119,7 +119,9 @@ int group_panels(std::vector<Panel>& panels, std::vector<std::size_t> order, dou
 void place_others(const LineFaces& faces, std::vector<Panel>& panels) {
   const auto bins = [&](const Panel& panel) {
     const auto [low, high] = std::minmax_element(panel.cells.begin(), panel.cells.end());
-    return std::pair(static_cast<double>(*low / faces.layers), static_cast<double>(*high / faces.layers));
+    const std::size_t first = *low / faces.layers;
+    const std::size_t last = *high / faces.layers;
+    return std::pair(static_cast<double>(first), static_cast<double>(last));
   };
   std::vector<int> found(panels.size());
   for (std::size_t i = 0; i < panels.size(); ++i) {
@@ -238,6 +240,7 @@ std::vector<LinePart> split_line(const LineFaces& faces, const std::vector<Obser
   place_others(faces, panels);
   const std::vector<int> spread = spread_groups(faces, panels);
   std::vector<LinePart> parts;
+  parts.reserve(static_cast<std::size_t>(groups));
   for (int group = 0; group < groups; ++group) {
     parts.push_back(part_of(faces, panels, spread, group));
   }
@@ -264,7 +267,8 @@ double steps_to(const LinePart& part, const OneSidedWall& wall) {
     if (faces.side[cell] == 0) {
       continue;
     }
-    const double t = faces.t0 + (static_cast<double>(cell / faces.layers) + 0.5) * faces.bin_m;
+    const std::size_t bin = cell / faces.layers;
+    const double t = faces.t0 + (static_cast<double>(bin) + 0.5) * faces.bin_m;
     const double bins = std::max({0.0, wall.t0 - t, t - wall.t1}) / faces.bin_m;
     for (const std::int32_t layer : wall.layers) {
       const double layers = std::abs(static_cast<double>(cell % faces.layers) - layer);

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "common/cells/cell_complex.h"
+#include "common/cells/interfaces.h"
 
 namespace roomcut {
 
@@ -26,29 +30,15 @@ inline FaceWeights no_weights(const CellComplex& c) {
 /// the empty one.
 inline FaceWeights weights_of(const CellComplex& c, const std::vector<bool>& empty) {
   FaceWeights w = no_weights(c);
-  for (std::size_t k = 0; k < c.layers(); ++k) {
-    for (std::size_t e = 0; e < c.edges.size(); ++e) {
-      const CellComplex::Edge& edge = c.edges[e];
-      const bool left = edge.left >= 0 && empty[c.cell(static_cast<std::size_t>(edge.left), k)];
-      const bool right = edge.right >= 0 && empty[c.cell(static_cast<std::size_t>(edge.right), k)];
-      if (left != right) {
-        w.wall_omega[c.wall_face(e, k)] = 1;
-        w.wall_left[c.wall_face(e, k)] = left ? 1 : 0;
-        w.wall_right[c.wall_face(e, k)] = right ? 1 : 0;
-      }
+  const auto is_empty = [&](std::int64_t cell) { return cell >= 0 && empty[static_cast<std::size_t>(cell)]; };
+  for_each_interface(c, [&](const Interface& face) {
+    if (is_empty(face.a) == is_empty(face.b)) {
+      return;
     }
-  }
-  for (std::size_t l = 0; l < c.levels.size(); ++l) {
-    for (std::size_t f = 0; f < c.faces(); ++f) {
-      const bool above = l < c.layers() && empty[c.cell(f, l)];
-      const bool below = l > 0 && empty[c.cell(f, l - 1)];
-      if (above != below) {
-        w.level_omega[c.level_face(f, l)] = 1;
-        w.level_floor[c.level_face(f, l)] = above ? 1 : 0;
-        w.level_ceiling[c.level_face(f, l)] = below ? 1 : 0;
-      }
-    }
-  }
+    (face.wall ? w.wall_omega : w.level_omega)[face.index] = 1;
+    (face.wall ? w.wall_left : w.level_ceiling)[face.index] = is_empty(face.a) ? 1 : 0;
+    (face.wall ? w.wall_right : w.level_floor)[face.index] = is_empty(face.b) ? 1 : 0;
+  });
   return w;
 }
 

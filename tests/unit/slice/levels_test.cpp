@@ -26,6 +26,7 @@ std::vector<Level> levels_of(const SyntheticCloud& cloud, std::vector<Level>* re
 
 std::vector<double> heights(const std::vector<Level>& levels) {
   std::vector<double> z;
+  z.reserve(levels.size());
   for (const Level& level : levels) z.push_back(level.z);
   return z;
 }
