@@ -25,7 +25,8 @@ bool is_empty(const CellComplex& complex, const std::vector<std::uint8_t>& label
 }
 
 std::vector<std::vector<Piece>> find_pieces(const CellComplex& complex,
-                                            const std::vector<std::uint8_t>& label) {
+                                            const std::vector<std::uint8_t>& label,
+                                            const CarriedRuns& carried) {
   std::vector<std::vector<Piece>> pieces(complex.lines.size());
   for (const CellComplex::Edge& edge : complex.edges) {
     if (edge.line < 0) {
@@ -35,6 +36,9 @@ std::vector<std::vector<Piece>> find_pieces(const CellComplex& complex,
     const double from = line.along(complex.vertices[static_cast<std::size_t>(edge.v0)]);
     const double to = line.along(complex.vertices[static_cast<std::size_t>(edge.v1)]);
     for (std::size_t layer = 0; layer < complex.layers(); ++layer) {
+      if (!carried.empty() && !carried[static_cast<std::size_t>(edge.line)].holds(layer, 0.5 * (from + to))) {
+        continue;
+      }
       const bool left = is_empty(complex, label, edge.left, layer);
       if (left != is_empty(complex, label, edge.right, layer)) {
         // The normal is the direction turned by -90 degrees: it points to the right of an edge that runs
@@ -74,8 +78,8 @@ void raster(const std::vector<Piece>& pieces, LineFaces& faces) {
 }  // namespace
 
 std::vector<LineFaces> find_line_faces(const CellComplex& complex, const std::vector<std::uint8_t>& label,
-                                       double bin_m) {
-  const std::vector<std::vector<Piece>> pieces = find_pieces(complex, label);
+                                       double bin_m, const CarriedRuns& carried) {
+  const std::vector<std::vector<Piece>> pieces = find_pieces(complex, label, carried);
   std::vector<LineFaces> result(complex.lines.size());
   for (std::size_t i = 0; i < result.size(); ++i) {
     LineFaces& faces = result[i];

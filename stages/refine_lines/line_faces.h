@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/cells/cell_complex.h"
+#include "stages/refine_lines/carried_layers.h"
 
 namespace roomcut {
 
@@ -24,8 +25,9 @@ struct LineFaces {
   std::int8_t side_at(std::size_t bin, std::size_t layer) const { return side[bin * layers + layer]; }
 };
 
-/// One entry per complex.lines. `label` as in Labels.
+/// One entry per complex.lines: the faces that are the line's by `carried` (empty: all). `label` as in
+/// Labels.
 std::vector<LineFaces> find_line_faces(const CellComplex& complex, const std::vector<std::uint8_t>& label,
-                                       double bin_m);
+                                       double bin_m, const CarriedRuns& carried = {});
 
 }  // namespace roomcut

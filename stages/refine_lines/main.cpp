@@ -15,7 +15,7 @@ using namespace roomcut;
 StageInfo info() {
   StageInfo stage;
   stage.name = "refine_lines";
-  stage.revision = 5;
+  stage.revision = 6;
   stage.summary = "Refines the wall lines that carry a wall in the first cut, on raw points";
   stage.inputs = {{"lines", "40_accept_lines/wall_lines.geojson", "Accepted wall lines"},
                   {"cells", "50_partition/cells.h5", "Cell complex of the first pass"},
@@ -57,9 +57,10 @@ void body(StageRun& run, const RefineLinesParams& params) {
   const FaceWeights weights = read_weights(run.input("weights"), cells);
   const std::vector<OneSidedWall> one_sided =
       find_one_sided(cells.complex, weights, labels.label, params.one_sided_m2);
-  restrict_to_carried_layers(cells.complex, weights, labels.label, lines.content);
+  CarriedRuns carried = find_carried_runs(cells.complex, weights, labels.label);
+  restrict_to_carried_layers(cells.complex, ids_of(one_sided), carried, lines.content);
   LineRefiner refiner(lines.content, cells.complex, labels.label, cloud.header().noise_m,
-                      cloud.header().density, params, one_sided);
+                      cloud.header().density, params, one_sided, carried);
   if (!params.band_m) {
     run.chose("band_m", refiner.band_m(), "the larger of 6 cm and 5 x noise");
   }

@@ -57,7 +57,8 @@ struct LineRefiner::State {
 
 LineRefiner::LineRefiner(const WallLines& lines, const CellComplex& complex,
                          const std::vector<std::uint8_t>& label, double noise_m, double density,
-                         const RefineLinesParams& params, std::vector<OneSidedWall> one_sided)
+                         const RefineLinesParams& params, std::vector<OneSidedWall> one_sided,
+                         const CarriedRuns& carried)
     : state_(new State{complex,
                        params,
                        params.band_m.value_or(std::max(0.06, 5 * noise_m)),
@@ -72,7 +73,7 @@ LineRefiner::LineRefiner(const WallLines& lines, const CellComplex& complex,
                        {}}) {
   State& s = *state_;
   s.kept.lines.clear();
-  s.faces = find_line_faces(complex, label, params.bin_m);
+  s.faces = find_line_faces(complex, label, params.bin_m, carried);
   s.one_sided = ids_of(one_sided);
   s.result.one_sided = std::move(one_sided);
   std::map<std::string, std::size_t> by_id;

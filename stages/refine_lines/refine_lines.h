@@ -9,6 +9,7 @@
 #include "common/cells/cell_complex.h"
 #include "common/cloud/cloud.h"
 #include "common/wall_lines/wall_line.h"
+#include "stages/refine_lines/carried_layers.h"
 #include "stages/refine_lines/one_sided.h"
 #include "stages/refine_lines/params.h"
 
@@ -41,7 +42,7 @@ class LineRefiner {
   /// their lines stay however little they carry, as long as they were unless they are split.
   LineRefiner(const WallLines& lines, const CellComplex& complex, const std::vector<std::uint8_t>& label,
               double noise_m, double density, const RefineLinesParams& params,
-              std::vector<OneSidedWall> one_sided = {});
+              std::vector<OneSidedWall> one_sided = {}, const CarriedRuns& carried = {});
   ~LineRefiner();
 
   void add(const CloudTile& tile);

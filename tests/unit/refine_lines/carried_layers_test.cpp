@@ -26,6 +26,10 @@ struct TwoStoreys {
       lines.lines.push_back(wall);
     }
   }
+  void restrict_lines() {
+    CarriedRuns carried = find_carried_runs(complex, weights, label);
+    restrict_to_carried_layers(complex, {}, carried, lines);
+  }
   const std::optional<std::vector<int>>& levels_at(double x) const {
     const std::size_t edge = edge_near(complex, {x, 2});
     return lines.lines[static_cast<std::size_t>(complex.edges[edge].line)].levels;
@@ -38,27 +42,27 @@ struct TwoStoreys {
 
 TEST(CarriedLayers, ALineCarriesWhereTheFirstCutHasSurfaceOnIt) {
   TwoStoreys scene;
-  restrict_to_carried_layers(scene.complex, scene.weights, scene.label, scene.lines);
+  scene.restrict_lines();
   EXPECT_EQ(scene.levels_at(4), std::vector<int>{0});
   EXPECT_EQ(scene.levels_at(4.06), std::vector<int>{2});
 }
 
-TEST(CarriedLayers, ATenthSeenIsEnough) {
+TEST(CarriedLayers, ThreeTenthsSeenAreEnough) {
   TwoStoreys scene;
-  scene.weights.wall_omega[scene.complex.wall_face(edge_near(scene.complex, {4, 2}), 2)] = 0.15F;
-  restrict_to_carried_layers(scene.complex, scene.weights, scene.label, scene.lines);
+  scene.weights.wall_omega[scene.complex.wall_face(edge_near(scene.complex, {4, 2}), 2)] = 0.35F;
+  scene.restrict_lines();
   EXPECT_EQ(scene.levels_at(4), (std::vector<int>{0, 2}));
 }
 
 TEST(CarriedLayers, LinesOfTheUsersAndThoseOfNothingStayAsTheyAre) {
   TwoStoreys scene;
   for (WallLine& line : scene.lines.lines) line.source = LineSource::kEdited;
-  restrict_to_carried_layers(scene.complex, scene.weights, scene.label, scene.lines);
+  scene.restrict_lines();
   EXPECT_FALSE(scene.levels_at(4).has_value());
   for (WallLine& line : scene.lines.lines) line.source = LineSource::kDetected;
   scene.weights = no_weights(scene.complex);
   scene.label.assign(scene.complex.cells(), 0);
-  restrict_to_carried_layers(scene.complex, scene.weights, scene.label, scene.lines);
+  scene.restrict_lines();
   EXPECT_FALSE(scene.levels_at(4).has_value());
 }
 
