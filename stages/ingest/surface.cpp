@@ -132,6 +132,11 @@ VoxelSurface surface_of(const NeighbourSum& sum, const std::array<std::uint32_t,
     return result;
   }
   result.surface = class_of_slope(std::abs(plane.normal[2]), params);
+  if (result.surface == SurfaceClass::kSloped && ratio >= kClearPlane) {
+    // A floor and a wall in one neighbourhood: seen as a plane between the two, its ratio is .16 … .28.
+    result.surface = SurfaceClass::kNone;
+    return result;
+  }
   if (result.surface == SurfaceClass::kWall) {
     result.azimuth = azimuth_step(plane.normal[0], plane.normal[1]);
   }

@@ -77,6 +77,21 @@ void raster(const std::vector<Piece>& pieces, LineFaces& faces) {
 
 }  // namespace
 
+LineFaces slice_bins(const LineFaces& faces, std::size_t first, std::size_t end,
+                     const std::vector<double>& layer_height) {
+  LineFaces slice = faces;
+  slice.bins = end - first;
+  slice.t0 = faces.t0 + static_cast<double>(first) * faces.bin_m;
+  slice.t1 = faces.t0 + static_cast<double>(end) * faces.bin_m;
+  slice.side.assign(faces.side.begin() + static_cast<std::ptrdiff_t>(first * faces.layers),
+                    faces.side.begin() + static_cast<std::ptrdiff_t>(end * faces.layers));
+  slice.area_m2 = 0;
+  for (std::size_t i = 0; i < slice.side.size(); ++i) {
+    slice.area_m2 += slice.side[i] != 0 ? faces.bin_m * layer_height[i % faces.layers] : 0;
+  }
+  return slice;
+}
+
 std::vector<LineFaces> find_line_faces(const CellComplex& complex, const std::vector<std::uint8_t>& label,
                                        double bin_m, const CarriedRuns& carried) {
   const std::vector<std::vector<Piece>> pieces = find_pieces(complex, label, carried);

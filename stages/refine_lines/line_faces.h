@@ -25,6 +25,10 @@ struct LineFaces {
   std::int8_t side_at(std::size_t bin, std::size_t layer) const { return side[bin * layers + layer]; }
 };
 
+/// The bins [first, end) of `faces`; `layer_height` [m] apportions the area.
+LineFaces slice_bins(const LineFaces& faces, std::size_t first, std::size_t end,
+                     const std::vector<double>& layer_height);
+
 /// One entry per complex.lines: the faces that are the line's by `carried` (empty: all). `label` as in
 /// Labels.
 std::vector<LineFaces> find_line_faces(const CellComplex& complex, const std::vector<std::uint8_t>& label,

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "stages/refine_lines/bends.h"
+#include "stages/refine_lines/hinges.h"
 #include "stages/refine_lines/split_lines.h"
 
 namespace roomcut {
@@ -36,6 +39,36 @@ std::string next_id(const std::string& id, std::set<std::string>& ids) {
     next = id + "." + std::to_string(number);
   }
   return next;
+}
+
+/// Splits items[i] where its wall bends; the larger part keeps the name, the other one goes to the end.
+bool split_at_hinge(const std::vector<double>& heights, std::set<std::string>& ids, std::size_t i,
+                    std::vector<LineItem>& items) {
+  const LineItem whole = items[i];
+  const LineFaces& faces = whole.faces.front();
+  const std::optional<Hinge> hinge = find_hinge({whole.wall.line(), &faces, &whole.observations});
+  if (!hinge) {
+    return false;
+  }
+  const auto part_of = [&](std::size_t first, std::size_t end, const Line2& line) {
+    LineItem part = whole;
+    part.faces = {slice_bins(faces, first, end, heights)};
+    part.area_m2 = part.faces.front().area_m2;
+    std::erase_if(part.observations, [&](const Observation& o) { return o.bin < first || o.bin >= end; });
+    for (Observation& o : part.observations) {
+      o.bin -= first;
+    }
+    part.wall.a = line.at(line.along(faces.line.at(part.faces.front().t0)));
+    part.wall.b = line.at(line.along(faces.line.at(part.faces.front().t1)));
+    return part;
+  };
+  items[i] = part_of(0, hinge->bin, hinge->before);
+  items.push_back(part_of(hinge->bin, faces.bins, hinge->behind));
+  if (items.back().area_m2 > items[i].area_m2) {
+    std::swap(items[i], items.back());
+  }
+  items.back().wall.id = next_id(whole.wall.id, ids);
+  return true;
 }
 
 }  // namespace
@@ -84,6 +117,18 @@ int split_items(const CellComplex& complex, double apart_m,
       }
       items.push_back(std::move(part));
     }
+  }
+  return static_cast<int>(items.size() - whole);
+}
+
+int split_at_hinges(const CellComplex& complex, std::vector<LineItem>& items) {
+  const std::vector<double> heights = layer_heights(complex);
+  std::set<std::string> ids = ids_of(items);
+  const std::size_t whole = items.size();
+  for (std::size_t i = 0; i < items.size();) {
+    const bool split = !items[i].users && !items[i].keeps_ends && !items[i].faces.empty() &&
+                       split_at_hinge(heights, ids, i, items);
+    i += split ? 0 : 1;  // a part may bend again
   }
   return static_cast<int>(items.size() - whole);
 }

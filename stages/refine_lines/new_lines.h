@@ -10,7 +10,7 @@
 
 namespace roomcut {
 
-// Lines that refinement adds: both give them the id of the line that they come from and a number ("w0007.1"),
+// Lines that refinement adds: all give them the id of the line that they come from and a number ("w0007.1"),
 // and return how many there are.
 
 /// Splits lines of which the walls lie in planes more than `apart_m` [m] apart (split_line()). Lines of the
@@ -18,6 +18,10 @@ namespace roomcut {
 int split_items(const CellComplex& complex, double apart_m,
                 const std::function<LinePrior(const LineItem&)>& prior_of,
                 std::vector<OneSidedWall>& one_sided, std::vector<LineItem>& items);
+
+/// Splits lines along which a wall bends (find_hinge()), but for those of the user's and of walls seen from
+/// one side.
+int split_at_hinges(const CellComplex& complex, std::vector<LineItem>& items);
 
 /// Adds the walls that bend off the fitted lines (find_bends()).
 int add_bends(const CellComplex& complex, std::vector<LineItem>& items);

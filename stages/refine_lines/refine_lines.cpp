@@ -220,8 +220,9 @@ Refinement LineRefiner::finish() {
   s.result.points = s.observer->points();
   s.result.split = split_items(
       s.complex, s.apart, [&](const LineItem& item) { return s.prior_of(item); }, s.result.one_sided, items);
+  s.result.bends = split_at_hinges(s.complex, items);
   s.solve_each(items);
-  s.result.bends = add_bends(s.complex, items);
+  s.result.bends += add_bends(s.complex, items);
   s.solve_each(items);
   s.solve_together(items);
   for (int round = 0; round < kMergeRounds && s.merge_near(items); ++round) {

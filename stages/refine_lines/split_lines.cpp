@@ -175,29 +175,26 @@ std::vector<int> spread_groups(const LineFaces& faces, const std::vector<Panel>&
 
 /// The line's faces without those of other groups, cut to the hull of what is the group's.
 LinePart part_of(const LineFaces& faces, const std::vector<Panel>& panels, const std::vector<int>& spread,
-                 int group) {
+                 const std::vector<double>& layer_height, int group) {
   LinePart part{faces, {}, {}};
-  part.faces.area_m2 = 0;
-  std::vector<std::int8_t> side(faces.side.size(), 0);
+  part.faces.side.assign(faces.side.size(), 0);
   for (const Panel& panel : panels) {
     if (panel.group != group) {
       continue;
     }
-    part.faces.area_m2 += panel.area_m2;
     part.observations.insert(part.observations.end(), panel.observations.begin(), panel.observations.end());
     for (const std::size_t cell : panel.cells) {
-      side[cell] = faces.side[cell];
+      part.faces.side[cell] = faces.side[cell];
     }
   }
   const auto begin = std::find(spread.begin(), spread.end(), group);
   const auto end = std::find(spread.rbegin(), spread.rend(), group).base();
   const std::size_t first = static_cast<std::size_t>(begin - spread.begin()) / faces.layers;
   const std::size_t last = static_cast<std::size_t>(end - 1 - spread.begin()) / faces.layers;
-  part.faces.bins = last - first + 1;
-  part.faces.t0 = faces.t0 + static_cast<double>(first) * faces.bin_m;
-  part.faces.t1 = faces.t0 + static_cast<double>(last + 1) * faces.bin_m;
-  part.faces.side.assign(side.begin() + static_cast<std::ptrdiff_t>(first * faces.layers),
-                         side.begin() + static_cast<std::ptrdiff_t>((last + 1) * faces.layers));
+  part.faces = slice_bins(part.faces, first, last + 1, layer_height);
+  for (Observation& o : part.observations) {
+    o.bin -= first;
+  }
   for (std::size_t layer = 0; layer < faces.layers; ++layer) {
     bool own = false;
     bool others = false;
@@ -242,7 +239,7 @@ std::vector<LinePart> split_line(const LineFaces& faces, const std::vector<Obser
   std::vector<LinePart> parts;
   parts.reserve(static_cast<std::size_t>(groups));
   for (int group = 0; group < groups; ++group) {
-    parts.push_back(part_of(faces, panels, spread, group));
+    parts.push_back(part_of(faces, panels, spread, layer_height, group));
   }
   std::stable_sort(parts.begin(), parts.end(),
                    [](const LinePart& a, const LinePart& b) { return a.faces.area_m2 > b.faces.area_m2; });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages/weigh_faces/weigh_faces.h"
 
+#include "stages/weigh_faces/continued_walls.h"
 #include "stages/weigh_faces/level_rasters.h"
 #include "stages/weigh_faces/line_grid.h"
 #include "stages/weigh_faces/point_sorter.h"
@@ -49,6 +50,7 @@ FaceWeights FaceWeigher::weigh() const {
   state_->levels.weigh(weights);
   state_->walls.weigh_sides(weights);
   discount_seen_through(state_->complex, weights);
+  continue_walls(state_->complex, weights);
   weights.cell_points.resize(state_->complex.cells());
   for (std::size_t c = 0; c < weights.cell_points.size(); ++c) {
     weights.cell_points[c] = state_->inside.at(c);

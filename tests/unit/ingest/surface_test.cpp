@@ -102,6 +102,30 @@ TEST(SurfaceClasses, are_right_where_a_plane_slopes) {
   EXPECT_NEAR(area, 25, 2.5);
 }
 
+TEST(SurfaceClasses, are_none_where_a_sparse_neighbourhood_holds_a_floor_and_a_wall) {
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::normal_distribution<double> error(0, 0.005);
+  std::vector<Vec3> points;
+  constexpr int kDensity = 230;              // neighbourhoods of 30 and 60 cm
+  for (int i = 0; i < 16 * kDensity; ++i) {  // two floors 15 cm apart, and the step between them
+    points.emplace_back(4 * unit(random), 2 * unit(random) - 2, error(random));
+    points.emplace_back(4 * unit(random), 2 * unit(random), 0.15 + error(random));
+  }
+  for (int i = 0; i < 4 * 3 * kDensity; ++i) {  // a wall across
+    points.emplace_back(error(random), 4 * unit(random) - 2, 0.15 + 2.85 * unit(random));
+  }
+  std::size_t near = 0;
+  std::size_t sloped = 0;
+  for_points(make_cloud(MemoryScan(points)), [&](const Vec3& p, SurfaceClass surface, std::uint8_t, double) {
+    const bool edge = (p.x() < 0.2 && p.z() < 0.35) || std::abs(p.y()) < 0.15;
+    near += edge ? 1 : 0;
+    sloped += edge && surface == SurfaceClass::kSloped ? 1 : 0;
+  });
+  EXPECT_GT(near, 500U);
+  EXPECT_LT(static_cast<double>(sloped) / static_cast<double>(near), 0.1);
+}
+
 TEST(SurfaceClasses, of_points_all_over_a_volume_are_none) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> unit(0, 2);

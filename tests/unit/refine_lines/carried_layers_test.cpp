@@ -66,5 +66,44 @@ TEST(CarriedLayers, LinesOfTheUsersAndThoseOfNothingStayAsTheyAre) {
   EXPECT_FALSE(scene.levels_at(4).has_value());
 }
 
+/// A wall at x = 4 in the upper storey; in the lower one it stands at x = 4.03, but the first cut left a
+/// corner of 15 cm on the upper one's line. Above the lower storey lies a layer of 30 cm of the same room.
+struct Sliver {
+  explicit Sliver(bool corner_between) {
+    std::vector<bool> empty(complex.cells(), false);
+    const std::size_t corner = 5, room = 9, sliver = 10;  // plan faces
+    empty[complex.cell(room, 0)] = empty[complex.cell(corner, 0)] = empty[complex.cell(sliver, 0)] = true;
+    empty[complex.cell(room, 1)] = empty[complex.cell(corner, 1)] = empty[complex.cell(sliver, 1)] = true;
+    empty[complex.cell(room, 3)] = empty[complex.cell(corner, 3)] = true;
+    empty[complex.cell(corner, 2)] = corner_between;
+    weights = weights_of(complex, empty);
+    label.assign(empty.begin(), empty.end());
+    carried = find_carried_runs(complex, weights, label);
+  }
+  const CarriedLine& at(double x) const {
+    return carried[static_cast<std::size_t>(complex.edges[edge_near(complex, {x, 2})].line)];
+  }
+  bool holds(double x, std::size_t layer, double y) const {
+    const Line2& line =
+        complex.lines[static_cast<std::size_t>(complex.edges[edge_near(complex, {x, 2})].line)].line;
+    return at(x).holds(layer, line.along({x, y}));
+  }
+  CellComplex complex = grid_complex({-1, 0, 4, 4.03, 9}, {-1, 0, 0.15, 4, 5}, {0, 2.3, 2.6, 2.9, 5.5});
+  FaceWeights weights;
+  std::vector<std::uint8_t> label;
+  CarriedRuns carried;
+};
+
+TEST(CarriedRuns, AShortPieceBesideALongerWallIsThatWalls) {
+  const Sliver scene(false);
+  EXPECT_FALSE(scene.holds(4, 0, 0.07));
+  EXPECT_TRUE(scene.holds(4.03, 0, 2));
+  EXPECT_TRUE(scene.holds(4, 3, 2));
+}
+
+TEST(CarriedRuns, AShortPieceBelowALongOneIsThatWalls) {
+  EXPECT_TRUE(Sliver(true).holds(4, 2, 0.07));
+}
+
 }  // namespace
 }  // namespace roomcut
