@@ -71,7 +71,7 @@ void report(StageRun& run, const TiledScan& scan, const SurfaceSummary& summary,
 StageInfo ingest_info() {
   StageInfo info;
   info.name = "ingest";
-  info.revision = 2;
+  info.revision = 3;
   info.summary = "Reads a raw scan; finds surface class, azimuth, noise and density from sums in voxels.";
   info.inputs = {
       {"scan", "", "The scan: PLY (ascii, binary) or text (.xyz .txt .csv .pts .asc)"},

@@ -12,6 +12,7 @@ namespace {
 constexpr float kCovered = 0.1F;  // coverage with which a face belongs to a surface
 constexpr float kWall = 0.5F;     // coverage with which a wall separates
 constexpr double kPrior = 10;     // bins that the surface's evidence is worth against a face's own
+constexpr double kLevel = 50;     // bins that the level's other surfaces are worth against one surface's own
 constexpr double kGap = 0.4;      // weight of the gaps: suspended ceilings under a plenum forbid more
 constexpr double kSteepness = 6;
 
@@ -50,6 +51,17 @@ std::vector<std::size_t> surfaces(const CellComplex& complex, const FaceWeights&
   return parent;
 }
 
+/// What is beside the surface says: +1 a floor … -1 a ceiling. A few steps of a stair that pass a level make
+/// no floor of what is a ceiling in the rest of the storey.
+double prior_of(const LevelSides& surface, const LevelSides& level) {
+  const double over = level.over - surface.over;
+  const double under = level.under - surface.under;
+  const double others = over + under;
+  const double worth = kLevel * others / (others + kLevel);
+  return (surface.over - surface.under + worth * (over - under) / (others + 1)) /
+         (surface.over + surface.under + worth + 2);
+}
+
 }  // namespace
 
 std::vector<double> floor_probability(const CellComplex& complex, const FaceWeights& weights,
@@ -59,15 +71,17 @@ std::vector<double> floor_probability(const CellComplex& complex, const FaceWeig
   }
   const std::vector<std::size_t> surface = surfaces(complex, weights, level);
   std::vector<LevelSides> whole(sides.size());
+  LevelSides total;
   for (std::size_t f = 0; f < sides.size(); ++f) {
     whole[surface[f]] += sides[f];
+    total += sides[f];
   }
   std::vector<double> probability(sides.size());
   for (std::size_t f = 0; f < sides.size(); ++f) {
     const LevelSides& own = sides[f];
     const LevelSides& all = whole[surface[f]];
-    const double prior = (all.over - all.under) / (all.over + all.under + 2);
-    const double beside = (own.over - own.under + kPrior * prior) / (own.over + own.under + kPrior);
+    const double beside =
+        (own.over - own.under + kPrior * prior_of(all, total)) / (own.over + own.under + kPrior);
     const double gap = (all.open_over - all.open_under) / (all.open_over + all.open_under + 2);
     probability[f] = 1 / (1 + std::exp(-kSteepness * (beside + kGap * gap)));
   }

@@ -24,9 +24,9 @@ struct LevelSides {
 };
 
 /// Per face of the plan the probability that the surface on `level` is a floor, empty above. Faces that no
-/// wall separates are asked together; a face may still have its own opinion. Needs wall_omega and
-/// level_omega. The lowest level
-/// is all floor, the highest all ceiling. No evidence: 1/2.
+/// wall separates are asked together, and where they know little, the rest of the level; a face may still
+/// have its own opinion. Needs wall_omega and level_omega. The lowest level is all floor, the highest all
+/// ceiling. No evidence: 1/2.
 std::vector<double> floor_probability(const CellComplex& complex, const FaceWeights& weights,
                                       std::size_t level, const std::vector<LevelSides>& sides);
 
