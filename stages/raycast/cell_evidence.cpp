@@ -19,6 +19,9 @@ constexpr double kRising = 0.2;     // sine of the elevation from which a ray lo
 constexpr double kPlate = 0.3;      // [m] thickness of a plate that is taken for a wall or slab …
 constexpr double kWide = 0.6;       // [m] … and of what is none any more
 constexpr double kOpenings = 0.2;   // share of a room's level rays that windows and doors let out
+constexpr double kStorey = 1.0;     // [m] layers as high hold no slab
+constexpr double kInside = 0.3;     // share of a thin upright cell that may be looked through in a wall …
+constexpr double kRim = 0.8;        // … and from which on it is a room's rim
 constexpr double kOpaque = 1e-3;    // a ray of which less is left has ended
 
 struct RayStart {
@@ -84,6 +87,14 @@ double CellEvidence::open() const {
 
 double CellEvidence::outdoors() const {
   return up.nothing() * down.nothing();
+}
+
+double CellEvidence::looked_through() const {
+  // Through windows a scanner sees air that is no room's. Through doors, stairs and gaps of furniture it sees
+  // a part of the inside of walls and slabs; of a room's rim behind furniture it sees more.
+  const double upright = height_m >= kStorey ? thin() : 0;
+  const double rim = std::clamp((carved - kInside) / (kRim - kInside), 0.0, 1.0);
+  return (1 - outdoors()) * (1 - sky) * ((1 - thin()) * carved + upright * rim);
 }
 
 double CellEvidence::in_slab() const {
@@ -173,7 +184,8 @@ CellEvidence gather_evidence(const CellComplex& complex, const FaceWeights& weig
                              std::size_t face, std::size_t layer, const RayRules& rules,
                              std::vector<Crossing>& scratch) {
   CellEvidence evidence;
-  evidence.volume_m3 = complex.area(face) * complex.height(layer);
+  evidence.height_m = complex.height(layer);
+  evidence.volume_m3 = complex.area(face) * evidence.height_m;
   add_own_faces(complex, weights, face, layer, evidence);
   look_around(complex, walk, face, layer, rules, scratch, evidence);
   look_up_and_down(complex, walk, face, layer, scratch, evidence);

@@ -30,6 +30,7 @@ struct CellEvidence {
   double flat = 0;      ///< covered share of its own floor or ceiling, whichever is larger
   double total_m2 = 0;  ///< area of all its faces
   double volume_m3 = 0;
+  double height_m = 0;
   double carved = 0;  ///< share of it that a scanner looked through; 0 when no position is known
 
   /// How far the cell is as thin as walls and slabs are, 0 … 1.
@@ -38,6 +39,8 @@ struct CellEvidence {
   double open() const;
   /// Neither anything below nor above: outdoors.
   double outdoors() const;
+  /// How far what a scanner looked through counts, 0 … 1 (README: line of sight).
+  double looked_through() const;
   /// Backs close by straight up and down: inside a slab.
   double in_slab() const;
 };

@@ -36,11 +36,9 @@ double empty_log_odds(const CellEvidence& e) {
   // So is a thin one behind a back, unless it has a ceiling or a floor of its own: a room's rim behind a
   // cupboard.
   const double plate = e.thin() * (1 - e.flat);
-  // Through windows a scanner sees air that is no room's, through doors the inside of walls.
-  const double carved = e.carved * (1 - e.outdoors()) * (1 - e.sky) * (1 - e.thin());
   return 1.1 + 0.5 * e.front_m2 / surface + back + 2 * e.around.front -
          1.75 * (1 + plate) * e.around.near_back - 3.5 * e.in_slab() - 3 * e.open() - 2.5 * e.outdoors() -
-         0.75 * e.sky + 3 * carved;
+         0.8 * e.sky + 3 * e.looked_through();
 }
 
 namespace {

@@ -218,5 +218,27 @@ TEST(CastRays, OneThreadAndFourGiveTheSameBytes) {
   EXPECT_EQ(one.d_solid, four.d_solid);
 }
 
+TEST(LookedThrough, CountsForRoomsAndTheirRimsNotForWallsAndSlabs) {
+  const auto counts = [](double width, double height, double carved) {
+    CellEvidence e;
+    e.volume_m3 = width * 4 * height;
+    e.total_m2 = 2 * (width * 4 + (width + 4) * height);
+    e.height_m = height;
+    e.carved = carved;
+    e.up.front = e.down.front = 1;
+    return e.looked_through();
+  };
+  EXPECT_NEAR(counts(3, 2.5, 0.5), 0.5, 0.01) << "a room";
+  EXPECT_EQ(counts(0.15, 2.5, 0.2), 0) << "a wall, through a door";
+  EXPECT_GT(counts(0.15, 2.5, 0.7), 0.7) << "a rim behind a cupboard";
+  EXPECT_EQ(counts(3, 0.2, 0.7), 0) << "a slab, through a stair's hole";
+  CellEvidence garden;
+  garden.volume_m3 = 30;
+  garden.total_m2 = 60;
+  garden.height_m = 2.5;
+  garden.carved = 0.9;
+  EXPECT_EQ(garden.looked_through(), 0) << "nothing above, nothing below";
+}
+
 }  // namespace
 }  // namespace roomcut
