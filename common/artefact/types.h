@@ -22,6 +22,7 @@ inline constexpr ArtefactType kDataTerms{"data_terms", 1, 1};
 inline constexpr ArtefactType kLabels{"labels", 1, 0};
 inline constexpr ArtefactType kSummary{"summary", 1, 0};
 inline constexpr ArtefactType kScores{"scores", 1, 0};
+inline constexpr ArtefactType kTruthCells{"truth_cells", 1, 0};
 inline constexpr ArtefactType kScene{"scene", 1, 0};
 }  // namespace artefacts
 

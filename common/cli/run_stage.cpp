@@ -68,7 +68,9 @@ void declare_options(CLI::App& app, const StageInfo& info, CommandLine& line, St
   for (const auto* list : {&info.inputs, &info.outputs}) {
     const bool is_input = list == &info.inputs;
     for (const StageFile& file : *list) {
-      std::string text = file.description + (file.optional ? " (may be absent)" : "");
+      std::string text = file.description + (!file.optional ? ""
+                                             : is_input     ? " (may be absent)"
+                                                            : " (only when given)");
       text += file.default_path.empty() ? "" : "; default: <work>/" + file.default_path;
       app.add_option("--" + file.name, line.files[file.name], text)
           ->type_name("FILE")
@@ -106,7 +108,9 @@ void resolve_files(const StageInfo& info, const CommandLine& line, StageRun::Sta
 std::vector<std::filesystem::path> outputs_of(const StageInfo& info, const StageRun::State& state) {
   std::vector<std::filesystem::path> outputs;
   for (const StageFile& file : info.outputs) {
-    outputs.push_back(state.files.at(file.name));
+    if (const std::filesystem::path& path = state.files.at(file.name); !path.empty()) {
+      outputs.push_back(path);
+    }
   }
   return outputs;
 }

@@ -20,7 +20,7 @@ struct StageFile {
   std::string
       default_path;  ///< below the work folder, e.g. "10_ingest/cloud.h5"; empty: the option is required
   std::string description;
-  bool optional = false;  ///< inputs only: may be absent (e.g. edits/wall_lines.geojson)
+  bool optional = false;  ///< may be absent (e.g. edits/wall_lines.geojson) or not asked for
   /// Inputs only: provenance takes the digest of the file's bytes, whatever the file says of itself. For
   /// files that a person may edit.
   bool by_bytes = false;

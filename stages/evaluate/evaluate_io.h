@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/artefact/json.h"
+#include "common/artefact/provenance.h"
 #include "stages/evaluate/distance_colours.h"
 #include "stages/evaluate/evaluate.h"
 
@@ -23,6 +24,11 @@ LabelledCells read_labelled_cells(const std::filesystem::path& cells, const std:
 /// The member `explanation` of scores.json, and its rows in the table.
 Json explanation_json(const Explanation& explanation, const Scores& scores);
 std::string explanation_rows(const Explanation& explanation, const Scores& scores);
+
+/// truth_cells.h5 (schemas/truth_cells.md): how much of every cell is empty in the truth. `explanation` is
+/// that of `cells`.
+void write_truth_cells(const std::filesystem::path& path, const Explanation& explanation,
+                       const LabelledCells& cells, const Provenance& provenance);
 
 /// The members of scores.json (schemas/scores.md).
 Json scores_json(const Scores& scores);

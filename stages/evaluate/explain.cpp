@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "common/random/counter_random.h"
 #include "stages/evaluate/face_locator.h"
@@ -356,6 +357,8 @@ Explanation Comparison::run() {
   }
   sum_rooms(rows, out);
   out.lost_walls = find_lost_walls(input_, locator_, truth_label_);
+  out.cell_m3 = std::move(cell_m3_);
+  out.cell_truth_m3 = std::move(cell_truth_m3_);
   return out;
 }
 

@@ -35,6 +35,9 @@ struct Explanation {
   double bound_iou = 0;   ///< of the truth's label (that of most of its volume) on every cell
   double labels_iou = 0;  ///< of the labels as they are
   double empty_m3 = 0;    ///< of all cells labelled empty, exactly
+  /// Per cell, as sampled: its volume, and what of it is empty in the truth. Both 0 for a cell that no
+  /// vertical line meets: it has no label of the truth and counts nowhere.
+  std::vector<double> cell_m3, cell_truth_m3;
   std::array<double, kCauses> lost_m3 = {};   ///< empty in the truth, solid in the model, by Cause
   std::array<double, kCauses> extra_m3 = {};  ///< solid in the truth, empty in the model
   /// What is known of a set of cells; shares and means are weighted by volume.
@@ -67,6 +70,7 @@ struct LabelledCells {
   CellComplex complex;
   std::vector<std::uint8_t> label;  ///< per cell
   std::optional<DataTerms> terms;
+  std::string payload_sha256;  ///< of the artefact that holds the cells; empty when none does
 };
 
 /// What explain() compares. All in one frame.

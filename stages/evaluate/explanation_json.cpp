@@ -46,6 +46,7 @@ LabelledCells read_labelled_cells(const std::filesystem::path& cells, const std:
   const CellsFile file = read_cells(cells);
   LabelledCells out;
   out.label = read_labels(labels, file).label;
+  out.payload_sha256 = file.payload_sha256;
   if (!terms.empty()) {
     out.terms = read_data_terms(terms, file);
   }

@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "common/cli/run_stage.h"
+#include "common/errors/codes.h"
 #include "common/mesh/mesh_io.h"
 #include "stages/evaluate/evaluate.h"
 #include "stages/evaluate/evaluate_io.h"
@@ -25,11 +26,31 @@ StageInfo info() {
       {"terms", "", "Their data terms: adds the evidence", true}};
   stage.outputs = {{"scores", "evaluate/scores.json", "All scores"},
                    {"coloured", "evaluate/distance.ply", "The model coloured by its distance to the truth"},
-                   {"picture", "evaluate/distance.png", "The same as a picture"}};
+                   {"picture", "evaluate/distance.png", "The same as a picture"},
+                   {"cells-out", "", "How much of every cell is empty in the truth; needs --cells", true}};
   return stage;
 }
 
+/// What --cells-out asks for; a file of an earlier run does not stay when there is nothing to write.
+void write_cells_out(StageRun& run, const Scores& scores, const std::optional<LabelledCells>& cells) {
+  const std::filesystem::path path = run.output("cells-out");
+  if (path.empty()) {
+    return;
+  }
+  if (cells && scores.explanation) {
+    write_truth_cells(path, *scores.explanation, *cells, run.provenance());
+    return;
+  }
+  std::error_code none;
+  std::filesystem::remove(path, none);
+  run.warn("--cells-out is not written: the model is not closed, so its cells are not compared");
+}
+
 void body(StageRun& run, const EvaluateParams& params) {
+  if (!run.output("cells-out").empty() && run.input("cells").empty()) {
+    throw StageError(errors::kUsage, "--cells-out", "there are no cells to compare with the truth",
+                     "give --cells and --labels, those of 90_final, as well");
+  }
   const TriangleMesh truth_file = read_mesh(run.input("truth"));
   const TriangleMesh model_file = read_mesh(run.input("model"));
   const Bounds3 box = bounds(truth_file);
@@ -50,6 +71,7 @@ void body(StageRun& run, const EvaluateParams& params) {
   write_distance_png(run.output("picture"), coloured, params.colour_range_m);
   write_json_artefact(run.output("scores"), artefacts::kScores, run.provenance(), Frame{},
                       scores_json(scores));
+  write_cells_out(run, scores, cells);
   run.chose("sample_spacing_m", scores.sample_spacing_m, "about 250,000 samples of the truth");
   if (!run.quiet()) {
     std::cout << scores_table(scores);

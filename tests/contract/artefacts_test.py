@@ -39,7 +39,9 @@ class Artefacts(unittest.TestCase):
         stage("synthesize", "--scene", scene, "--scan-out", scan, "--truth-out", truth,
               "--truth-json", os.path.join(work, "truth.json"))
         run("make", "-C", SOURCE, "run", f"SCAN={scan}", f"WORK={work}", f"BUILD={BUILD}")
-        stage("evaluate", "--work", work, "--truth", truth)
+        final = {name: os.path.join(work, "90_final", name + ".h5") for name in ("cells", "labels", "data_terms")}
+        stage("evaluate", "--work", work, "--truth", truth, "--cells", final["cells"], "--labels", final["labels"],
+              "--terms", final["data_terms"], "--cells-out", os.path.join(work, "evaluate", "truth_cells.h5"))
         run("make", "-C", SOURCE, "compare", f"A={work}", f"B={work}", f"BUILD={BUILD}")
 
     @classmethod
@@ -53,7 +55,7 @@ class Artefacts(unittest.TestCase):
         return sorted(found)
 
     def test_h5dump_reads_every_file(self):
-        self.assertGreaterEqual(len(self.files(".h5")), 11)
+        self.assertGreaterEqual(len(self.files(".h5")), 12)
         for path in self.files(".h5"):
             run("h5dump", "-H", path)
 

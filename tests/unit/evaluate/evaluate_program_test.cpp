@@ -7,8 +7,11 @@
 #include <filesystem>
 #include <fstream>
 
+#include "common/artefact/h5.h"
 #include "common/artefact/json.h"
+#include "common/cells/cells_io.h"
 #include "common/mesh/mesh_io.h"
+#include "tests/unit/cells/three_faces.h"
 #include "tests/unit/mesh/shapes.h"
 
 namespace roomcut {
@@ -17,6 +20,14 @@ namespace {
 namespace fs = std::filesystem;
 using test::append;
 using test::box;
+
+Labels all_solid(const CellComplex& complex) {
+  Labels labels;
+  labels.label.assign(complex.cells(), 0);
+  labels.margin_m3.assign(complex.cells(), 0);
+  labels.unobserved.assign(complex.cells(), 0);
+  return labels;
+}
 
 class EvaluateProgram : public testing::Test {
  protected:
@@ -87,6 +98,44 @@ TEST_F(EvaluateProgram, TheSameBytesForOneAndManyThreads) {
   ASSERT_EQ(run("--truth truth.off --threads 4"), 0);
   EXPECT_EQ(read("evaluate/scores.json"), scores);
   EXPECT_EQ(read("evaluate/distance.ply"), coloured);
+}
+
+TEST_F(EvaluateProgram, TruthOfTheCellsIsWrittenWhenAskedForAndBelongsToTheCells) {
+  const CellComplex complex = three_faces();
+  write_cells(work_ / "cells.h5", complex, {});
+  const CellsFile cells = read_cells(work_ / "cells.h5");
+  const Labels labels = all_solid(complex);
+  write_labels(work_ / "labels.h5", labels, cells, {});
+  ASSERT_EQ(run("--truth truth.off --cells cells.h5 --labels labels.h5 --cells-out truth_cells.h5"), 0)
+      << read("stderr");
+  const H5Reader file(work_ / "truth_cells.h5", artefacts::kTruthCells);
+  EXPECT_EQ(file.attribute_string("/", "cells_payload_sha256"), cells.payload_sha256);
+  const auto sampled = file.read<double>("cell/sampled", {complex.cells()});
+  const auto empty = file.read<double>("cell/empty", {complex.cells()});
+  for (std::size_t cell = 0; cell < complex.cells(); ++cell) {
+    EXPECT_LE(empty[cell], sampled[cell] + 1e-9);
+  }
+  const std::string bytes = read("truth_cells.h5");
+  ASSERT_EQ(
+      run("--truth truth.off --cells cells.h5 --labels labels.h5 --cells-out truth_cells.h5 --threads 3"), 0);
+  EXPECT_EQ(read("truth_cells.h5"), bytes);
+}
+
+TEST_F(EvaluateProgram, TruthOfTheCellsNeedsCellsAndAClosedModel) {
+  EXPECT_EQ(run("--truth truth.off --cells-out truth_cells.h5"), 2);
+  EXPECT_NE(read("stderr").find("error[U01] --cells-out"), std::string::npos) << read("stderr");
+  EXPECT_FALSE(fs::exists(work_ / "truth_cells.h5"));
+  const CellComplex complex = three_faces();
+  write_cells(work_ / "cells.h5", complex, {});
+  const Labels labels = all_solid(complex);
+  write_labels(work_ / "labels.h5", labels, read_cells(work_ / "cells.h5"), {});
+  TriangleMesh open = box({0, 0, 0}, {1, 1, 1});
+  open.triangles.pop_back();
+  write("model.ply", ply_bytes(open, {0, 0, 0}, {}));
+  write("truth_cells.h5", "of an earlier run");
+  ASSERT_EQ(run("--truth truth.off --cells cells.h5 --labels labels.h5 --cells-out truth_cells.h5"), 0);
+  EXPECT_NE(read("stderr").find("not closed"), std::string::npos) << read("stderr");
+  EXPECT_FALSE(fs::exists(work_ / "truth_cells.h5")) << "what is old does not stay";
 }
 
 TEST_F(EvaluateProgram, BadMeshesAndDescriptionsAreRefused) {

@@ -76,7 +76,7 @@ CellComplex grid(const Values& xs, const Values& ys, const Values& zs) {
 
 /// Cells whose middle lies in one of the boxes are empty.
 LabelledCells labelled(const CellComplex& complex, const std::vector<std::array<Vec3, 2>>& empty) {
-  LabelledCells cells{complex, std::vector<std::uint8_t>(complex.cells(), 0), std::nullopt};
+  LabelledCells cells{complex, std::vector<std::uint8_t>(complex.cells(), 0), std::nullopt, {}};
   for (std::size_t cell = 0; cell < complex.cells(); ++cell) {
     const std::size_t layer = cell / complex.faces();
     const Vec2 middle = complex.centroid(cell % complex.faces());
@@ -139,6 +139,42 @@ TEST(Explain, ARoomLabelledSolidIsLostToLabelsAndItsEvidenceIsSummed) {
   EXPECT_DOUBLE_EQ(e.rooms[0].own.evidence_m3, -3);
   EXPECT_DOUBLE_EQ(e.rooms[0].own.beta, 0.25);
   EXPECT_DOUBLE_EQ(e.rooms[0].own.observed, 0.5);
+}
+
+TEST(Explain, EveryCellSaysHowMuchOfItIsEmptyInTheTruthWhateverTheLabelsSay) {
+  // Lines at x = 2 and 6, a level at 2: the room from x = 1 to 4, 2.5 m high, halves and sticks out of cells.
+  const CellComplex complex = grid({0, 2, 4, 6, 8}, kY, {0, 2, 3});
+  for (const bool all_empty : {false, true}) {
+    const auto cells =
+        labelled(complex, {all_empty ? std::array<Vec3, 2>{Vec3(-9, -9, -9), Vec3(9, 9, 9)} : kRoomBox});
+    const Explanation e = explained(kRoom, kRoom, cells);
+    ASSERT_EQ(e.cell_m3.size(), complex.cells());
+    ASSERT_EQ(e.cell_truth_m3.size(), complex.cells());
+    for (std::size_t cell = 0; cell < complex.cells(); ++cell) {
+      const std::size_t face = cell % complex.faces();
+      const std::size_t layer = cell / complex.faces();
+      EXPECT_NEAR(e.cell_m3[cell] / (complex.area(face) * complex.height(layer)), 1, 0.03);
+      const Vec2 middle = complex.centroid(face);
+      const double along = middle.y() < 1 || middle.y() > 3 || middle.x() > 4 ? 0 : middle.x() < 2 ? 0.5 : 1;
+      EXPECT_NEAR(e.cell_truth_m3[cell] / e.cell_m3[cell], along * (layer == 0 ? 1 : 0.5), 0.02)
+          << middle.transpose() << " layer " << layer;
+    }
+    EXPECT_NEAR(std::accumulate(e.cell_truth_m3.begin(), e.cell_truth_m3.end(), 0.0), 15, 0.15);
+  }
+}
+
+TEST(Explain, ACellThatNoColumnMeetsCountsNowhere) {
+  const CellComplex complex = grid({0, 1, 4, 4.000001, 5}, kY, kZ);
+  const Explanation e = explained(kRoom, kRoom, labelled(complex, {kRoomBox}));
+  double met = 0;
+  for (std::size_t cell = 0; cell < complex.cells(); ++cell) {
+    const Vec2 middle = complex.centroid(cell % complex.faces());
+    if (middle.x() > 4 && middle.x() < 4.000001) {
+      met += e.cell_m3[cell];
+      EXPECT_EQ(e.cell_truth_m3[cell], 0);
+    }
+  }
+  EXPECT_EQ(met, 0);
 }
 
 TEST(Explain, ALineFiveCentimetresOffIsMisplaced) {
