@@ -8,7 +8,7 @@ MAKEFLAGS += --no-print-directory --no-builtin-rules
 
 # From the command line; passed on through the environment, so that names may hold spaces and any letters.
 BUILD ?= build
-export SCAN WORK CONFIG BUILD JOBS UP UNIT STATIONS TRUTH PORT QUIET ONLY BASE OUT A B
+export SCAN WORK CONFIG BUILD JOBS UP UNIT STATIONS TRUTH PORT QUIET ONLY BASE OUT ROOT A B
 
 stages := ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines \
           final_partition final_weigh_faces final_raycast final_graphcut find_openings extract report
@@ -18,7 +18,7 @@ generator = $$(command -v ninja > /dev/null && echo "-G Ninja")
 quiet_make = env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL
 pipeline = +@sh stages/pipeline.sh
 
-.PHONY: help deps build test demo run status verify view edit-lines diff-lines drop-edit layers evaluate compare accuracy accuracy-walls bench tidy format ready \
+.PHONY: help deps build test demo run status verify view edit-lines diff-lines drop-edit layers evaluate compare accuracy accuracy-walls accuracy-weights bench tidy format ready \
         $(stages) $(stages:%=rerun-%) $(stages:%=clean-%) $(stages:%=plot-%)
 
 help:
@@ -41,6 +41,8 @@ help:
 	'make accuracy                 scores of scenes with known truth, in one table; ONLY="virtual uniform_house_*" some of' \
 	'                              them, BASE=old.json what changed since, OUT=file the JSON (work/accuracy/accuracy.json)' \
 	'make accuracy-walls           errors of walls and heights beside their stated sigmas; ONLY="uniform_3mm …", OUT=file' \
+	'make accuracy-weights         after make accuracy: weights of the data term fitted with every building left out; ONLY=, OUT=file;' \
+	'                              ROOT=folder of its work folders, here and in make accuracy, instead of work/accuracy/' \
 	'' \
 	'Stages: ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines' \
 	'        (second pass) final_partition final_weigh_faces final_raycast final_graphcut   find_openings extract report' \
@@ -91,6 +93,11 @@ accuracy: build
 
 accuracy-walls: build
 	@$(quiet_make) python3 tests/accuracy/walls.py --build "$$BUILD" $(OUT:%=--json %) $(ONLY:%=--only %)
+
+# Debian's own Python: it is the one that has Debian's packages.
+accuracy-weights: build
+	@sh .ci/install-packages.sh debian-packages-ci.txt
+	@$(quiet_make) /usr/bin/python3 tests/accuracy/leave_one_out.py "$$BUILD"
 
 # BENCH: options of tests/bench/bench.py, e.g. "--sizes 1,4,10,40,100 --series grown".
 bench: deps

@@ -26,6 +26,7 @@ float between(double low, double value, double high) {
 
 }  // namespace
 
+// tests/accuracy/weight_terms.py has the same terms and weights, and refuses what they do not give.
 double empty_log_odds(const CellEvidence& e) {
   // A few stray points on a large cell's faces should not decide: they count against this much of its
   // surface.

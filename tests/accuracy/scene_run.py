@@ -44,11 +44,17 @@ def identity(path):
     return f"{path} {status.st_size} {status.st_mtime_ns}"
 
 
-def make_scan(build, scene, work):
+def scan_files(scene, work):
     """Paths of scan, truth mesh and truth.json."""
+    folder, scan = (scene["folder"], "cloud.ply") if "folder" in scene else (work, "scan.ply")
+    return [os.path.join(folder, name) for name in (scan, "truth.off", "truth.json")]
+
+
+def make_scan(build, scene, work):
+    """scan_files(), made anew where they are out of date."""
+    files = scan_files(scene, work)
     if "folder" in scene:
-        return [os.path.join(scene["folder"], name) for name in ("cloud.ply", "truth.off", "truth.json")]
-    files = [os.path.join(work, name) for name in ("scan.ply", "truth.off", "truth.json")]
+        return files
     source, stamp = os.path.join(work, "scene.json"), os.path.join(work, "scene.stamp")
     program = os.path.join(build, "bin", "synthesize")
     key = json.dumps(scene["scene"], indent=1) + subprocess.run([program, "--dump-params"], capture_output=True, text=True, check=True).stdout
@@ -80,13 +86,13 @@ def config_file(scene, work):
 
 def evaluate(build, scene, work, truth, truth_json):
     program, model = os.path.join(build, "bin", "evaluate"), os.path.join(work, "model.ply")
-    scores, stamp = os.path.join(work, "evaluate", "scores.json"), os.path.join(work, "evaluate", "scores.stamp")
+    scores, truth_cells, stamp = (os.path.join(work, "evaluate", name) for name in ("scores.json", "truth_cells.h5", "scores.stamp"))
     cells = [os.path.join(work, "90_final", name + ".h5") for name in ("cells", "labels", "data_terms")]
     key = "\n".join(map(identity, (program, model, truth, truth_json, *cells)))
-    if not is_fresh(stamp, key, [scores]):
+    if not is_fresh(stamp, key, [scores, truth_cells]):
         coarse = ["--set", "sample_spacing_m=0.1", "--set", "column_spacing_m=0.1"] if "mu_m" in scene else []
         run([program, "-q", "--threads", "1", "--work", work, "--truth", truth, "--truth-json", truth_json, *coarse,
-             "--cells", cells[0], "--labels", cells[1], "--terms", cells[2]])
+             "--cells", cells[0], "--labels", cells[1], "--terms", cells[2], "--cells-out", truth_cells])
         write_if_changed(stamp, key)
     return read_json(scores)
 
