@@ -8,8 +8,9 @@ import numpy
 
 # Every term with the weight that raycast gives it. That both are still what raycast sums is checked on every file: read_terms().
 SHIPPED = {"constant": 1.1, "own fronts": 0.5, "own backs, thin": -2.5, "own backs, wide": 1.5, "around, fronts": 2.0, "behind": -1.75,
-           "in_slab": -3.5, "open": -3.0, "outdoors": -2.5, "sky": -0.75, "line of sight": 3.0}
+           "in_slab": -3.5, "open": -3.0, "outdoors": -2.5, "sky": -0.8, "line of sight": 3.0}
 SURFACE_M2, SURFACE_SHARE = 0.5, 0.03  # of a cell's surface, against which its own covered faces count
+STOREY_M, INSIDE, RIM = 1.0, 0.3, 0.8  # looked_through() of cell_evidence.cpp
 BETA_TOLERANCE = 1e-4  # evidences are stored with seven digits
 
 
@@ -62,11 +63,13 @@ def term_matrix(cells, weights, data, depth_m):
     floor, ceiling = (weights["level/" + name][:].astype(float).reshape(layers + 1, faces) for name in ("floor", "ceiling"))
     flat = numpy.maximum(floor[:-1], ceiling[1:]).ravel()
     thin = cell["thin"]
+    upright = thin * numpy.repeat(height >= STOREY_M, faces)
+    rim = numpy.clip((cell["line_of_sight"] - INSIDE) / (RIM - INSIDE), 0, 1)
     columns = {"constant": numpy.ones(len(volume)), "own fronts": front_m2 / surface, "own backs, thin": thin * back_m2 / surface,
                "own backs, wide": (1 - thin) * back_m2 / surface, "around, fronts": 0.5 * (cell["observed"] + cell["around"]),
                "behind": (1 + thin * (1 - flat)) * cell["behind"], "in_slab": cell["in_slab"], "open": cell["open"],
                "outdoors": cell["outdoors"], "sky": cell["sky"],
-               "line of sight": cell["line_of_sight"] * (1 - cell["outdoors"]) * (1 - cell["sky"]) * (1 - thin)}
+               "line of sight": (1 - cell["outdoors"]) * (1 - cell["sky"]) * ((1 - thin) * cell["line_of_sight"] + upright * rim)}
     return numpy.column_stack([columns[name] for name in SHIPPED])
 
 
