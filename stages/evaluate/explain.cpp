@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -343,9 +344,11 @@ Explanation Comparison::run() {
   Explanation out;
   out.bound_iou = iou(truth_label_);
   out.labels_iou = iou(input_.label);
+  const std::size_t faces = complex_.faces();
+  assert(faces > 0);
   for (std::size_t cell = 0; cell < complex_.cells(); ++cell) {
     if (input_.label[cell] != 0) {
-      out.empty_m3 += complex_.area(cell % complex_.faces()) * complex_.height(cell / complex_.faces());
+      out.empty_m3 += complex_.area(cell % faces) * complex_.height(cell / faces);
     }
   }
   const double area = spacing_ * spacing_;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cassert>
+
 #include <numbers>
 #include <numeric>
 
@@ -39,18 +41,19 @@ CellComplex grid(const Values& xs, const Values& ys, const Values& zs) {
     complex.lines.push_back({id, {theta, at}, -10, 10, {}});
     return static_cast<std::int32_t>(complex.lines.size()) - 1;
   };
-  std::vector<std::int32_t> upright(static_cast<std::size_t>((nx + 1) * ny));
-  std::vector<std::int32_t> level(static_cast<std::size_t>(nx * (ny + 1)));
+  const auto at = [](std::int32_t index) { return static_cast<std::size_t>(index); };
+  std::vector<std::int32_t> upright(at((nx + 1) * ny));
+  std::vector<std::int32_t> level(at(nx * (ny + 1)));
   for (std::int32_t y = 0; y < ny; ++y) {
     for (std::int32_t x = 0; x <= nx; ++x) {
-      upright[static_cast<std::size_t>(y * (nx + 1) + x)] = static_cast<std::int32_t>(complex.edges.size());
+      upright[at(y * (nx + 1) + x)] = static_cast<std::int32_t>(complex.edges.size());
       complex.edges.push_back({vertex(x, y), vertex(x, y + 1), face(x - 1, y), face(x, y),
                                line("x", xs[static_cast<std::size_t>(x)], 0, x > 0 && x < nx)});
     }
   }
   for (std::int32_t y = 0; y <= ny; ++y) {
     for (std::int32_t x = 0; x < nx; ++x) {
-      level[static_cast<std::size_t>(y * nx + x)] = static_cast<std::int32_t>(complex.edges.size());
+      level[at(y * nx + x)] = static_cast<std::int32_t>(complex.edges.size());
       complex.edges.push_back(
           {vertex(x, y), vertex(x + 1, y), face(x, y), face(x, y - 1),
            line("y", ys[static_cast<std::size_t>(y)], std::numbers::pi / 2, y > 0 && y < ny)});
@@ -62,10 +65,8 @@ CellComplex grid(const Values& xs, const Values& ys, const Values& zs) {
       for (const std::int32_t v : {vertex(x, y), vertex(x + 1, y), vertex(x + 1, y + 1), vertex(x, y + 1)}) {
         complex.face_vertex.push_back(v);
       }
-      for (const std::int32_t e : {level[static_cast<std::size_t>(y * nx + x)],
-                                   upright[static_cast<std::size_t>(y * (nx + 1) + x + 1)],
-                                   level[static_cast<std::size_t>((y + 1) * nx + x)],
-                                   upright[static_cast<std::size_t>(y * (nx + 1) + x)]}) {
+      for (const std::int32_t e : {level[at(y * nx + x)], upright[at(y * (nx + 1) + x + 1)],
+                                   level[at((y + 1) * nx + x)], upright[at(y * (nx + 1) + x)]}) {
         complex.face_edge.push_back(e);
       }
       complex.face_offset.push_back(static_cast<std::int64_t>(complex.face_vertex.size()));
@@ -77,9 +78,11 @@ CellComplex grid(const Values& xs, const Values& ys, const Values& zs) {
 /// Cells whose middle lies in one of the boxes are empty.
 LabelledCells labelled(const CellComplex& complex, const std::vector<std::array<Vec3, 2>>& empty) {
   LabelledCells cells{complex, std::vector<std::uint8_t>(complex.cells(), 0), std::nullopt, {}};
+  const std::size_t faces = complex.faces();
+  assert(faces > 0);
   for (std::size_t cell = 0; cell < complex.cells(); ++cell) {
-    const std::size_t layer = cell / complex.faces();
-    const Vec2 middle = complex.centroid(cell % complex.faces());
+    const std::size_t layer = cell / faces;
+    const Vec2 middle = complex.centroid(cell % faces);
     const Vec3 p(middle.x(), middle.y(), 0.5 * (complex.levels[layer] + complex.levels[layer + 1]));
     for (const auto& [lo, hi] : empty) {
       if ((p.array() > lo.array()).all() && (p.array() < hi.array()).all()) cells.label[cell] = 1;
