@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cassert>
-
 #include <numbers>
 #include <numeric>
 
