@@ -106,9 +106,11 @@ bench: deps
 	@cmake --build "$$BUILD"
 	@python3 tests/bench/bench.py "$$BUILD" $(BENCH)
 
-tidy: build
+# Configured on its own, nothing is built: GCC's precompiled headers are not for clang.
+tidy: deps
 	@sh .ci/install-packages.sh debian-packages-ci.txt
-	@$(sources) -- '*.cpp' | xargs -P "$$(nproc)" -n 4 clang-tidy -p "$$BUILD" --quiet
+	@cmake --preset tidy > /dev/null
+	@$(sources) -- '*.cpp' | xargs -P "$$(nproc)" -n 4 clang-tidy -p build-tidy --quiet
 
 format:
 	@sh .ci/install-packages.sh debian-packages-ci.txt
