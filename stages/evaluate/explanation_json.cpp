@@ -101,8 +101,8 @@ std::string explanation_rows(const Explanation& explanation, const Scores& score
     }
   }
   for (const Explanation::LostWall& wall : explanation.lost_walls) {
-    text += std::string("  lost ") + (wall.slab ? "slab       " : "wall       ") +
-            scores.rooms[static_cast<std::size_t>(wall.a)].room.name + " | " +
+    text += wall.slab ? "  lost slab       " : "  lost wall       ";
+    text += scores.rooms[static_cast<std::size_t>(wall.a)].room.name + " | " +
             scores.rooms[static_cast<std::size_t>(wall.b)].room.name +
             format(": %.1f m2, %.1f m2 of it without a cell; ", wall.area_m2, wall.no_cell_m2) +
             evidence_text(wall.cells);
