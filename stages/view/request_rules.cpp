@@ -67,7 +67,7 @@ std::optional<Refusal> refuse(const RequestHead& head, int port) {
     return Refusal{405, "the method is not known here"};
   }
   if (head.mark.size() != 1 || head.mark[0] != "1") {
-    return Refusal{403, std::string("a change needs the header ") + kMarkHeader + ": 1"};
+    return Refusal{403, std::string("a change needs the header ").append(kMarkHeader).append(": 1")};
   }
   const bool has_body = head.method == "PUT" || head.method == "POST" || !head.transfer_encoding.empty() ||
                         (!head.content_length.empty() && head.content_length[0] != "0");
