@@ -75,9 +75,26 @@ class Descent {
       }
       places_.push_back({key, static_cast<std::uint32_t>(i)});
     }
-    std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
-      return std::pair(a.key, a.point) < std::pair(b.key, b.point);
-    });
+    sort_by_key();
+  }
+
+  /// Digit by digit from the last, stable: places of one key stay in the order of their points.
+  void sort_by_key() {
+    constexpr std::uint32_t kBits = 9;
+    constexpr std::size_t kDigits = std::size_t{1} << kBits;
+    std::vector<Place> sorted(places_.size());
+    for (std::uint32_t shift = 0; shift < 6 * levels_; shift += kBits) {
+      std::array<std::size_t, kDigits> next{};
+      const auto digit = [&](const Place& place) { return place.key >> shift & (kDigits - 1); };
+      for (const Place& place : places_) {
+        ++next[digit(place)];
+      }
+      std::exclusive_scan(next.begin(), next.end(), next.begin(), std::size_t{0});
+      for (const Place& place : places_) {
+        sorted[next[digit(place)]++] = place;
+      }
+      places_.swap(sorted);
+    }
   }
 
   double distance2(const Vec3& p, std::int32_t triangle) const {

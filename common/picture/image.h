@@ -46,7 +46,8 @@ class Image {
 /// size and halving smooths edges.
 void halve_rows(const Colour* upper, const Colour* lower, int width, Colour* out);
 
-/// The bytes of a PNG file (libpng, no time stamp: equal pictures give equal bytes).
+/// The bytes of a PNG file (libpng, no time stamp: equal pictures give equal bytes); with a palette when the
+/// picture has no more than 256 colours: a third of the bytes to compress.
 std::vector<std::uint8_t> encode_png(const Image& image);
 
 /// Publishes a PNG file whole or not at all. Throws StageError(kCannotWrite).

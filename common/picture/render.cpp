@@ -154,9 +154,10 @@ std::vector<std::vector<std::uint32_t>> dots_of_bands(const Sheet& sheet, int si
 }  // namespace
 
 Image render(const Drawing& drawing, const View& view) {
-  const int width = 2 * view.width;
-  const int height = 2 * view.height;
-  const int dot = 2 * view.point_size;
+  const int scale = view.smooth ? 2 : 1;
+  const int width = scale * view.width;
+  const int height = scale * view.height;
+  const int dot = scale * view.point_size;
   const Sheet sheet = lay_out(drawing, view, Projection(drawing, view, width, height));
   const std::vector<std::vector<std::uint32_t>> dots = dots_of_bands(sheet, dot, height);
   Image image(view.width, view.height);
@@ -174,8 +175,12 @@ Image render(const Drawing& drawing, const View& view) {
       const Sheet::Dot& one = sheet.dots[i];
       band.square(one.x, one.y, dot, one.z, one.colour);
     }
-    for (int y = first; y < end; y += 2) {
-      halve_rows(band.row(y), band.row(y + 1), view.width, image.row(y / 2));
+    for (int y = first; y < end; y += scale) {
+      if (view.smooth) {
+        halve_rows(band.row(y), band.row(y + 1), view.width, image.row(y / 2));
+      } else {
+        std::copy_n(band.row(y), view.width, image.row(y));
+      }
     }
   }
   return image;

@@ -4,7 +4,7 @@
 #include <openssl/evp.h>
 
 #include <array>
-#include <cstdio>
+#include <charconv>
 
 #include "common/picture/colour_map.h"
 
@@ -14,9 +14,10 @@ namespace {
 
 /// Two decimals, whatever the locale.
 std::string fixed(double value) {
-  std::array<char, 48> text{};
-  std::snprintf(text.data(), text.size(), "%.2f", value);
-  return text.data();
+  std::array<char, 352> text{};  // the longest number there is
+  char* const end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, 2).ptr;
+  return {text.data(), end};
 }
 
 std::string title_element(std::string_view title) {

@@ -64,14 +64,16 @@ int main(int argc, char** argv) {
     if ((only == "all" || only == "pictures" || only == "ingest") && run.has_input("cloud")) {
       points = thinned_points(run, static_cast<std::uint64_t>(params.cloud_points));
     }
-    const auto pictures = draw_pictures(run, params, only, points);
+    std::string html;
+    const auto pictures = draw_pictures(run, params, only, points, [&] {
+      if (only == "all") html = make_page(run, points);
+    });
     run.count("pictures", static_cast<double>(pictures.size()));
     if (only != "all") {
       write_plots(run, pictures);
       return;
     }
     write_overview(run, pictures);
-    const std::string html = make_page(run, points);
     write_text_file(page, html);
     run.count("page", static_cast<double>(html.size()) / 1e6, "MB");
   });

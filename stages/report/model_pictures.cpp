@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <numbers>
 #include <string>
 
@@ -10,6 +11,8 @@
 namespace roomcut {
 
 namespace {
+
+constexpr std::size_t kHeightColours = 255;  // with the background as many as a palette holds
 
 Colour surface_colour(std::uint8_t kind) {
   switch (static_cast<SurfaceKind>(kind)) {
@@ -75,12 +78,18 @@ Picture draw_cloud(const std::vector<Vec3>& points, int width_px) {
     low = std::min(low, p.z());
     high = std::max(high, p.z());
   }
+  std::array<Colour, kHeightColours> colours{};
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    colours[i] = sequential_colour(static_cast<double>(i) / (kHeightColours - 1));
+  }
+  const double per_m = (kHeightColours - 1) / std::max(high - low, 1e-9);
   drawing.point_colours.reserve(points.size());
   for (const Vec3& p : points) {
-    drawing.point_colours.push_back(sequential_colour((p.z() - low) / std::max(high - low, 1e-9)));
+    drawing.point_colours.push_back(colours[static_cast<std::size_t>((p.z() - low) * per_m + 0.5)]);
   }
-  return {"ingest", "cloud.png", "The scan", "Points from low (dark) to high (yellow).",
-          png(drawing, slanted(width_px))};
+  View view = slanted(width_px);
+  view.smooth = false;
+  return {"ingest", "cloud.png", "The scan", "Points from low (dark) to high (yellow).", png(drawing, view)};
 }
 
 }  // namespace roomcut

@@ -41,15 +41,15 @@ PagePoints pack_points(const std::vector<ThinPoint>& points, const std::vector<M
   packed.surface.reserve(points.size());
   for (const ThinPoint& point : points) {
     const Vec3 units = (point.at - packed.low).cwiseQuotient(packed.step);
-    for (int axis = 0; axis < 3; ++axis) {
-      packed.xyz.push_back(static_cast<std::uint16_t>(std::clamp(std::round(units[axis]), 0.0, kUnits)));
+    for (int axis = 0; axis < 3; ++axis) {  // never negative; half a unit more is rounded down
+      packed.xyz.push_back(static_cast<std::uint16_t>(std::min(units[axis] + 0.5, kUnits)));
     }
     packed.surface.push_back(point.surface);
   }
   packed.distance.reserve(nearest.size());
   for (const MeshTree::Hit& hit : nearest) {
     packed.distance.push_back(static_cast<std::uint8_t>(
-        std::min<double>(kFar, std::round(std::min(hit.distance, 1.0) / kDistanceStep_m))));
+        std::min<double>(kFar, std::min(hit.distance, 1.0) / kDistanceStep_m + 0.5)));
   }
   return packed;
 }

@@ -2,6 +2,7 @@
 #include "stages/report/page_template.h"
 
 #define ZLIB_CONST  // zlib then promises to only read its input
+#include <tbb/parallel_for.h>
 #include <zlib.h>
 
 #include <stdexcept>
@@ -44,10 +45,12 @@ std::string fill_template(std::string_view page_template, const std::vector<Page
     throw std::invalid_argument("the page's template has no place for data");
   }
   std::string page(page_template.substr(0, mark));
-  for (const PageBlock& block : blocks) {
-    const std::string packed = gzip(block.bytes, block.noisy);
-    page += "<script type=\"application/octet-stream\" id=\"block-" + block.name + "\">";
-    page += base64({reinterpret_cast<const std::uint8_t*>(packed.data()), packed.size()});
+  std::vector<std::string> packed(blocks.size());
+  tbb::parallel_for(std::size_t{0}, blocks.size(),
+                    [&](std::size_t i) { packed[i] = gzip(blocks[i].bytes, blocks[i].noisy); });
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    page += "<script type=\"application/octet-stream\" id=\"block-" + blocks[i].name + "\">";
+    page += base64({reinterpret_cast<const std::uint8_t*>(packed[i].data()), packed[i].size()});
     page += "</script>\n";
   }
   page += page_template.substr(mark + kDataMark.size());

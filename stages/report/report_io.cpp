@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages/report/report_io.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "common/artefact/local_crs.h"
 #include "common/slices/slices_io.h"
@@ -40,15 +44,32 @@ std::vector<std::string> report_choices() {
 }
 
 std::vector<Picture> draw_pictures(const StageRun& run, const ReportParams& params, const std::string& only,
-                                   const std::vector<ThinPoint>& points) {
+                                   const std::vector<ThinPoint>& points,
+                                   const std::function<void()>& meanwhile) {
   const bool overview = only == "all" || only == "pictures";
-  std::vector<Picture> pictures;
-  for (const StageDrawing& drawing : stage_drawings(points)) {
+  std::vector<StageDrawing> drawings = stage_drawings(points);
+  std::erase_if(drawings, [&](const StageDrawing& drawing) {
     const bool wanted = overview ? drawing.overview : drawing.stage == only;
-    if (wanted && std::all_of(drawing.needs.begin(), drawing.needs.end(),
-                              [&](const std::string& input) { return run.has_input(input); })) {
-      drawing.draw(run, params, pictures);
+    return !wanted || !std::all_of(drawing.needs.begin(), drawing.needs.end(),
+                                   [&](const std::string& input) { return run.has_input(input); });
+  });
+  std::vector<std::vector<Picture>> drawn(drawings.size());
+  const auto draw = [&](std::size_t i) { drawings[i].draw(run, params, drawn[i]); };
+  const auto draw_others = [&] {
+    for (std::size_t i = 0; i < drawings.size(); ++i) {
+      if (!drawings[i].rendered) draw(i);
     }
+    meanwhile();
+  };
+  // HDF5 takes calls from one thread at a time: all that reads artefacts is one task.
+  std::vector<std::function<void()>> tasks{draw_others};
+  for (std::size_t i = 0; i < drawings.size(); ++i) {
+    if (drawings[i].rendered) tasks.emplace_back([&draw, i] { draw(i); });
+  }
+  tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) { tasks[i](); });
+  std::vector<Picture> pictures;
+  for (std::vector<Picture>& some : drawn) {
+    std::move(some.begin(), some.end(), std::back_inserter(pictures));
   }
   return pictures;
 }

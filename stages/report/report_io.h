@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,9 +21,11 @@ std::vector<std::string> report_choices();
 
 /// The pictures of one run of the pipeline, or those that give an overview of all ("all", "pictures"), in the
 /// order of the pipeline, as far as the artefacts are there; `points`: the thinned scan, for "ingest" and the
-/// overview. Errors: those of the artefacts' readers.
+/// overview. Models and clouds are rendered by other threads, while this one draws the rest and then does
+/// `meanwhile`. Errors: those of the artefacts' readers.
 std::vector<Picture> draw_pictures(const StageRun& run, const ReportParams& params, const std::string& only,
-                                   const std::vector<ThinPoint>& points);
+                                   const std::vector<ThinPoint>& points,
+                                   const std::function<void()>& meanwhile);
 
 /// The occupancy grid of each wall slice as files for QGIS: slice_<k>.png with slice_<k>.pgw and
 /// slice_<k>.png.aux.xml, which say where it lies. `file` is the name, `bytes` the content.

@@ -66,7 +66,7 @@ void add_pass(const std::string& prefix, const PassInputs& inputs, bool overview
               std::vector<StageDrawing>& list) {
   const auto add = [&](const char* name, std::vector<std::string> needs, bool is_overview, auto draw) {
     const std::string stage = prefix + name;
-    list.push_back({stage, std::move(needs), is_overview,
+    list.push_back({stage, std::move(needs), is_overview, false,
                     [=](const StageRun& run, const ReportParams& /*params*/, Pictures& pictures) {
                       draw(run, inputs, stage, pictures);
                     }});
@@ -82,20 +82,21 @@ void add_pass(const std::string& prefix, const PassInputs& inputs, bool overview
 std::vector<StageDrawing> stage_drawings(const std::vector<ThinPoint>& points) {
   const PassInputs first{"first_cells", "first_weights", "first_terms", "first_labels"};
   const PassInputs second{"cells", "weights", "terms", "labels"};
-  std::vector<StageDrawing> list = {{"ingest", {"cloud"}, true, draw_scan(points)},
-                                    {"slice", {"slices"}, true, draw_levels},
-                                    {"detect_lines", {"slices", "detected"}, true, draw_detection},
-                                    {"accept_lines", {"detected", "lines"}, false, draw_accepted}};
+  std::vector<StageDrawing> list = {{"ingest", {"cloud"}, true, true, draw_scan(points)},
+                                    {"slice", {"slices"}, true, false, draw_levels},
+                                    {"detect_lines", {"slices", "detected"}, true, false, draw_detection},
+                                    {"accept_lines", {"detected", "lines"}, false, false, draw_accepted}};
   add_pass("", first, false, list);
-  list.push_back({"refine_lines", {"lines", "refined"}, true, draw_refined});
+  list.push_back({"refine_lines", {"lines", "refined"}, true, false, draw_refined});
   add_pass("final_", second, true, list);
   list.push_back({"find_openings",
                   {"cells", "labels", "openings"},
                   false,
+                  false,
                   [second](const StageRun& run, const ReportParams& /*params*/, Pictures& pictures) {
                     draw_openings_of(run, second, pictures);
                   }});
-  list.push_back({"extract", {"model"}, true, draw_model_views});
+  list.push_back({"extract", {"model"}, true, true, draw_model_views});
   return list;
 }
 

@@ -17,6 +17,7 @@ struct StageDrawing {
   std::string stage;
   std::vector<std::string> needs;  ///< inputs without which there is nothing to draw
   bool overview;                   ///< whether `make run` draws it
+  bool rendered;                   ///< pixel by pixel, and without HDF5: draw() may run beside others
   std::function<void(const StageRun&, const ReportParams&, std::vector<Picture>&)> draw;
 };
 

@@ -2,7 +2,11 @@
 #include "common/picture/render.h"
 
 #include <gtest/gtest.h>
+#include <png.h>
 
+#include <array>
+#include <cstring>
+#include <map>
 #include <numbers>
 
 namespace roomcut {
@@ -58,6 +62,51 @@ TEST(Render, PlanHasXToTheRightAndYUp) {
   const Image image = render(drawing, view);
   EXPECT_EQ(image.get(49, 49), (Colour{255, 0, 0}));
   EXPECT_EQ(image.get(2, 2), (Colour{0, 0, 255}));
+}
+
+TEST(Render, PointsThatAreNotSmoothedKeepTheirColours) {
+  Drawing drawing;
+  drawing.points = {{0, 0, 0}, {1, 1, 0}};
+  drawing.point_colours = {{10, 20, 30}, {200, 0, 0}};
+  View view = plan_view();
+  view.width = view.height = 33;  // an odd number of rows, and more than are drawn together
+  view.smooth = false;
+  const Image image = render(drawing, view);
+  std::map<std::array<int, 3>, int> count;
+  for (const Colour c : image.pixels()) {
+    ++count[{c.r, c.g, c.b}];
+  }
+  EXPECT_EQ(count, (std::map<std::array<int, 3>, int>{
+                       {{10, 20, 30}, 1}, {{200, 0, 0}, 1}, {{255, 255, 255}, 33 * 33 - 2}}));
+}
+
+/// The picture that libpng reads from the bytes of a file.
+std::vector<std::uint8_t> decoded(const std::vector<std::uint8_t>& bytes) {
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  EXPECT_NE(png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()), 0);
+  png.format = PNG_FORMAT_RGB;
+  std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(png));
+  EXPECT_NE(png_image_finish_read(&png, nullptr, pixels.data(), 0, nullptr), 0);
+  return pixels;
+}
+
+TEST(EncodePng, KeepsEveryPixelWithAPaletteAndWithout) {
+  for (const int colours : {1, 2, 255, 256, 257, 5000}) {
+    Image image(100, 60);
+    for (int i = 0; i < 6000; ++i) {
+      const int c = i % colours;
+      image.set(i % 100, i / 100,
+                {static_cast<std::uint8_t>(c), static_cast<std::uint8_t>(c / 256),
+                 static_cast<std::uint8_t>(c * 7)});
+    }
+    const auto bytes = encode_png(image);
+    const auto pixels = decoded(bytes);
+    ASSERT_EQ(pixels.size(), 3 * image.pixels().size());
+    EXPECT_EQ(std::memcmp(pixels.data(), image.pixels().data(), pixels.size()), 0) << colours << " colours";
+    constexpr std::size_t kColourType = 25;  // of the header: 3 = palette, 2 = red, green, blue
+    EXPECT_EQ(bytes[kColourType], colours <= 256 ? 3 : 2);
+  }
 }
 
 TEST(Render, EqualPicturesGiveEqualPngBytes) {
