@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <deque>
 
 namespace roomcut {
 
@@ -15,7 +16,7 @@ class ObservationCost : public ceres::SizedCostFunction<1, 2> {
  public:
   explicit ObservationCost(const LineResidual& residual) : residual_(residual) {}
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
-    const Pose pose{parameters[0][0], parameters[0][1]};
+    const TurnedPose pose({parameters[0][0], parameters[0][1]});
     residuals[0] = residual_.value(pose);
     if (jacobians != nullptr && jacobians[0] != nullptr) {
       jacobians[0][0] = residual_.by_turn(pose);
@@ -71,18 +72,27 @@ class ParallelCost : public ceres::SizedCostFunction<1, 2, 1> {
 
 using Block = std::array<double, 2>;
 
-void add_line(const Adjustment& adjustment, std::size_t i, ceres::Problem& problem, Block& block,
-              std::vector<double>& angles) {
+/// What Ceres is told to leave to its owner: thousands of small objects made and deleted one by one would
+/// take as long as the solver.
+struct Terms {
+  ceres::TukeyLoss loss{kTukeyLoss};
+  std::deque<ObservationCost> observations;
+  std::deque<PriorCost> priors;
+  std::deque<ParallelCost> parallels;
+};
+
+void add_line(const Adjustment& adjustment, std::size_t i, Terms& terms, ceres::Problem& problem,
+              Block& block, std::vector<double>& angles) {
   const LineProblem& line = adjustment.lines[i];
   problem.AddParameterBlock(block.data(), 2);
-  problem.AddResidualBlock(new PriorCost(unmoved(line), line.prior), nullptr, block.data());
+  problem.AddResidualBlock(&terms.priors.emplace_back(unmoved(line), line.prior), nullptr, block.data());
   for (const LineResidual& residual : line.residuals) {
-    problem.AddResidualBlock(new ObservationCost(residual), new ceres::TukeyLoss(kTukeyLoss), block.data());
+    problem.AddResidualBlock(&terms.observations.emplace_back(residual), &terms.loss, block.data());
   }
   const int group = adjustment.classes.class_of.empty() ? -1 : adjustment.classes.class_of[i];
   if (group >= 0 && adjustment.regularity_rad > 0) {
-    problem.AddResidualBlock(new ParallelCost(line.line.theta, adjustment.regularity_rad), nullptr,
-                             block.data(), &angles[static_cast<std::size_t>(group)]);
+    problem.AddResidualBlock(&terms.parallels.emplace_back(line.line.theta, adjustment.regularity_rad),
+                             nullptr, block.data(), &angles[static_cast<std::size_t>(group)]);
   }
   if (adjustment.constant[i]) {
     problem.SetParameterBlockConstant(block.data());
@@ -97,9 +107,13 @@ bool adjust(Adjustment& adjustment) {
     blocks.push_back({pose.turn, pose.shift});
   }
   std::vector<double> angles = adjustment.classes.angle;
-  ceres::Problem problem;
+  Terms terms;
+  ceres::Problem::Options ownership;
+  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(ownership);
   for (std::size_t i = 0; i < blocks.size(); ++i) {
-    add_line(adjustment, i, problem, blocks[i], angles);
+    add_line(adjustment, i, terms, problem, blocks[i], angles);
   }
   ceres::Solver::Options options;
   options.num_threads = 1;

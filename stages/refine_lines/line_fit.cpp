@@ -48,10 +48,11 @@ double step(const LineProblem& problem, Loss loss, Pose& pose) {
       Eigen::Vector2d(1 / (prior.turn_rad * prior.turn_rad), 1 / (prior.shift_m * prior.shift_m))
           .asDiagonal();
   Eigen::Vector2d right(-(pose.turn - home.turn) * normal(0, 0), -(pose.shift - home.shift) * normal(1, 1));
+  const TurnedPose turned(pose);
   for (const LineResidual& residual : problem.residuals) {
-    const double r = residual.value(pose);
+    const double r = residual.value(turned);
     const double w = weight(r, loss);
-    const Eigen::Vector2d j(residual.by_turn(pose), residual.by_shift());
+    const Eigen::Vector2d j(residual.by_turn(turned), residual.by_shift());
     normal += w * j * j.transpose();
     right -= w * r * j;
   }
@@ -96,8 +97,10 @@ double cost(const LineProblem& problem, const Pose& pose) {
   const double turn = (pose.turn - home.turn) / problem.prior.turn_rad;
   const double shift = (pose.shift - home.shift) / problem.prior.shift_m;
   double sum = turn * turn + shift * shift;
+  const TurnedPose turned(pose);
   for (const LineResidual& residual : problem.residuals) {
-    sum += std::min(std::pow(residual.value(pose), 2), kBound * kBound);
+    const double r = residual.value(turned);
+    sum += std::min(r * r, kBound * kBound);
   }
   return sum;
 }
@@ -130,8 +133,9 @@ Pose choose_surface(LineProblem problem) {
 double unevenness(const LineProblem& problem, const Pose& pose) {
   std::vector<double> deviations;
   std::vector<double> variances;
+  const TurnedPose turned(pose);
   for (const LineResidual& residual : problem.residuals) {
-    const double deviation = std::abs(residual.value(pose)) * residual.sigma;
+    const double deviation = std::abs(residual.value(turned)) * residual.sigma;
     if (deviation <= std::max(kSurface_m, 3 * residual.sigma)) {
       deviations.push_back(deviation);
       variances.push_back(residual.sigma * residual.sigma);
@@ -150,7 +154,8 @@ double correlation_factor(const LineProblem& problem, const Pose& pose) {
   double products = 0;
   double squares = 0;
   double pairs = 0;
-  const auto bounded = [&](const LineResidual& r) { return std::clamp(r.value(pose), -kBound, kBound); };
+  const TurnedPose turned(pose);
+  const auto bounded = [&](const LineResidual& r) { return std::clamp(r.value(turned), -kBound, kBound); };
   for (std::size_t i = 0; i < problem.residuals.size(); ++i) {
     const double r = bounded(problem.residuals[i]);
     squares += r * r;
@@ -171,11 +176,12 @@ double correlation_factor(const LineProblem& problem, const Pose& pose) {
 double scale(const LineProblem& problem, const Pose& pose) {
   double squares = 0;
   double slopes = 0;
+  const TurnedPose turned(pose);
   for (const LineResidual& residual : problem.residuals) {
-    const double r = residual.value(pose);
+    const double r = residual.value(turned);
     const double q = r * r / (kTukeyLoss * kTukeyLoss);
     if (q < 1) {
-      squares += r * r * std::pow(1 - q, 4);
+      squares += r * r * (1 - q) * (1 - q) * (1 - q) * (1 - q);
       slopes += (1 - q) * (1 - 5 * q);
     }
   }
@@ -246,8 +252,9 @@ PoseCovariance pose_covariance(const LineProblem& problem, const Pose& pose, dou
   }
   if (!problem.residuals.empty()) {
     const double factor = scale(problem, pose) * correlation_factor(problem, pose);
+    const TurnedPose turned(pose);
     for (const LineResidual& residual : problem.residuals) {
-      const Eigen::Vector2d j(residual.by_turn(pose), residual.by_shift());
+      const Eigen::Vector2d j(residual.by_turn(turned), residual.by_shift());
       information += j * j.transpose() / factor;
     }
   }

@@ -15,7 +15,9 @@ struct LineItem {
   std::vector<LineFaces> faces;  ///< one entry; of a merged line those of all that went into it
   std::vector<Observation> observations;
   LineProblem problem;
-  LineFit fit;
+  LineFit alone;      ///< by its own observations
+  LineFit fit;        ///< among the others
+  bool stale = true;  ///< `problem` and `alone` are not of these observations
   bool constant = false;
   bool users = false;
   bool keeps_ends = false;  ///< of a line of the user's, or a wall seen from one side

@@ -15,18 +15,25 @@ struct Pose {
   double shift = 0;
 };
 
+/// A pose with the turn's cosine and sine, for many residuals.
+struct TurnedPose {
+  explicit TurnedPose(const Pose& pose)
+      : cosine(std::cos(pose.turn)), sine(std::sin(pose.turn)), shift(pose.shift) {}
+  double cosine, sine, shift;
+};
+
 /// The residual of one observation, in standard deviations: ((p - centre)·n(theta0 + turn) - shift) / sigma,
 /// and its derivatives. (e, t) are p - centre along and across n(theta0).
 struct LineResidual {
   double e, t;   ///< along the normal, along the direction of the unturned line [m]
   double sigma;  ///< [m]
 
-  double value(const Pose& pose) const {
-    return (std::cos(pose.turn) * e + std::sin(pose.turn) * t - pose.shift) / sigma;
+  double value(const TurnedPose& pose) const {
+    return (pose.cosine * e + pose.sine * t - pose.shift) / sigma;
   }
-  double by_turn(const Pose& pose) const {
-    return (-std::sin(pose.turn) * e + std::cos(pose.turn) * t) / sigma;
-  }
+  double value(const Pose& pose) const { return value(TurnedPose(pose)); }
+  double by_turn(const TurnedPose& pose) const { return (-pose.sine * e + pose.cosine * t) / sigma; }
+  double by_turn(const Pose& pose) const { return by_turn(TurnedPose(pose)); }
   double by_shift() const { return -1.0 / sigma; }
 };
 

@@ -157,6 +157,7 @@ int add_bends(const CellComplex& complex, std::vector<LineItem>& items) {
     item.area_m2 = bend.faces.area_m2;
     item.faces = {std::move(bend.faces)};
     item.observations = std::move(bend.observations);
+    item.stale = true;
     added.push_back(std::move(item));
   }
   items.insert(items.end(), std::make_move_iterator(added.begin()), std::make_move_iterator(added.end()));

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <iterator>
 #include <numbers>
 
 namespace roomcut {
@@ -38,6 +38,63 @@ struct LineObserver::Near {
   const Track* track;
   const LineFaces* faces;
   Vec2 normal, direction;
+};
+
+/// Which lines pass near each block of a tile: a point then asks a few instead of all that cross the tile.
+class LineObserver::Neighbourhood {
+ public:
+  Neighbourhood(const CloudTile& tile, const std::vector<LineFaces>& lines, const std::vector<Track>& tracks,
+                double band_m) {
+    if (tile.size() == 0) {
+      return;
+    }
+    const auto [x0, x1] = std::minmax_element(tile.x.begin(), tile.x.end());
+    const auto [y0, y1] = std::minmax_element(tile.y.begin(), tile.y.end());
+    low_ = Vec2(*x0, *y0);
+    columns_ = static_cast<std::size_t>((*x1 - *x0) / kBlock_m) + 1;
+    const std::size_t rows = static_cast<std::size_t>((*y1 - *y0) / kBlock_m) + 1;
+    std::vector<Near> crossing;
+    for (const Track& track : tracks) {
+      const Line2& line = lines[track.line].line;
+      crossing.push_back({&track, &lines[track.line], line.normal(), line.direction()});
+    }
+    const auto keep_near = [&](const Vec2& low, const Vec2& high, const std::vector<Near>& from,
+                               std::vector<Near>& to) {
+      std::copy_if(from.begin(), from.end(), std::back_inserter(to), [&](const Near& near) {
+        return strip_meets_box(near.faces->line, near.faces->t0, near.faces->t1, band_m, low, high);
+      });
+    };
+    std::vector<Near> of_tile;
+    keep_near(low_, Vec2(*x1, *y1), crossing, of_tile);
+    std::vector<Near> of_row;
+    const Vec2 rounding = Vec2::Constant(1e-6);
+    for (std::size_t row = 0; row < rows; ++row) {
+      const Vec2 corner = low_ + Vec2(0, static_cast<double>(row) * kBlock_m);
+      of_row.clear();
+      keep_near(corner - rounding, Vec2(*x1, corner.y() + kBlock_m) + rounding, of_tile, of_row);
+      for (std::size_t column = 0; column < columns_; ++column) {
+        const Vec2 low = corner + Vec2(static_cast<double>(column) * kBlock_m, 0);
+        keep_near(low - rounding, low + Vec2::Constant(kBlock_m) + rounding, of_row, near_);
+        end_.push_back(near_.size());
+      }
+    }
+  }
+
+  bool empty() const { return near_.empty(); }
+  std::span<const Near> near(float x, float y) const {
+    const auto column = static_cast<std::size_t>((x - low_.x()) / kBlock_m);
+    const auto row = static_cast<std::size_t>((y - low_.y()) / kBlock_m);
+    const std::size_t block = row * columns_ + column;
+    const std::size_t first = block == 0 ? 0 : end_[block - 1];
+    return {near_.data() + first, end_[block] - first};
+  }
+
+ private:
+  static constexpr double kBlock_m = 0.5;
+  Vec2 low_{0, 0};
+  std::size_t columns_ = 0;
+  std::vector<Near> near_;        ///< block by block, ascending
+  std::vector<std::size_t> end_;  ///< of each block's in near_
 };
 
 /// A point's place on the line that it belongs to.
@@ -102,27 +159,8 @@ std::size_t LineObserver::zone_of(double z, std::size_t layer) const {
   return first_zone_[layer] + std::min(count - 1, zone);
 }
 
-std::vector<LineObserver::Near> LineObserver::lines_near(const CloudTile& tile) const {
-  constexpr double kFar = std::numeric_limits<double>::max();
-  Vec2 low(kFar, kFar);
-  Vec2 high(-kFar, -kFar);
-  for (std::size_t i = 0; i < tile.size(); ++i) {
-    const Vec2 p(tile.x[i], tile.y[i]);
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  std::vector<Near> near;
-  for (const Track& track : tracks_) {
-    const LineFaces& faces = lines_[track.line];
-    if (strip_meets_box(faces.line, faces.t0, faces.t1, band_m_, low, high)) {
-      near.push_back({&track, &faces, faces.line.normal(), faces.line.direction()});
-    }
-  }
-  return near;
-}
-
 LineObserver::Hit LineObserver::find_line(const CloudTile& tile, std::size_t i,
-                                          const std::vector<Near>& near) const {
+                                          std::span<const Near> near) const {
   Hit hit;
   const auto surface = static_cast<SurfaceClass>(tile.surface[i]);
   const double z = tile.z[i];
@@ -158,14 +196,14 @@ LineObserver::Hit LineObserver::find_line(const CloudTile& tile, std::size_t i,
 }
 
 void LineObserver::add(const CloudTile& tile) {
-  const std::vector<Near> near = lines_near(tile);
-  if (near.empty()) {
+  const Neighbourhood lines(tile, lines_, tracks_, band_m_);
+  if (lines.empty()) {
     return;
   }
   const double per_bin = OffsetHistogram::kBins / (2 * band_m_);
   std::uint64_t taken = 0;
   for (std::size_t i = 0; i < tile.size(); ++i) {
-    const Hit hit = find_line(tile, i, near);
+    const Hit hit = find_line(tile, i, lines.near(tile.x[i], tile.y[i]));
     if (hit.patch < 0) {
       continue;
     }

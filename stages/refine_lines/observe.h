@@ -80,10 +80,10 @@ class LineObserver {
   };
   struct Near;
   struct Hit;
+  class Neighbourhood;
   Track make_track(std::size_t line, std::int32_t& patches) const;
   std::size_t zone_of(double z, std::size_t layer) const;
-  std::vector<Near> lines_near(const CloudTile& tile) const;
-  Hit find_line(const CloudTile& tile, std::size_t i, const std::vector<Near>& near) const;
+  Hit find_line(const CloudTile& tile, std::size_t i, std::span<const Near> near) const;
 
   const std::vector<LineFaces>& lines_;
   const std::vector<double>& levels_;

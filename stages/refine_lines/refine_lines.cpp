@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages/refine_lines/refine_lines.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -120,14 +122,19 @@ void LineRefiner::add(const CloudTile& tile) {
 }
 
 void LineRefiner::State::solve_each(std::vector<LineItem>& items) const {
-  for (LineItem& item : items) {
-    item.constant = is_held(item);
-    item.problem = make_problem(item.wall.line(), item.wall.centre(), item.observations, prior_of(item));
-    item.fit = fit_line(item.problem);
-    if (item.constant) {
-      item.fit.pose = unmoved(item.problem);
+  tbb::parallel_for(std::size_t{0}, items.size(), [&](std::size_t i) {
+    LineItem& item = items[i];
+    if (item.stale) {
+      item.constant = is_held(item);
+      item.problem = make_problem(item.wall.line(), item.wall.centre(), item.observations, prior_of(item));
+      item.alone = fit_line(item.problem);
+      if (item.constant) {
+        item.alone.pose = unmoved(item.problem);
+      }
+      item.stale = false;
     }
-  }
+    item.fit = item.alone;
+  });
 }
 
 void LineRefiner::State::solve_together(std::vector<LineItem>& items) {
@@ -175,6 +182,7 @@ bool LineRefiner::State::merge_near(std::vector<LineItem>& items) {
     strong.observations.insert(strong.observations.end(), weak.observations.begin(), weak.observations.end());
     strong.faces.insert(strong.faces.end(), weak.faces.begin(), weak.faces.end());
     strong.area_m2 += weak.area_m2;
+    strong.stale = true;
     if (!weak.wall.levels || !strong.wall.levels) {
       strong.wall.levels.reset();
     } else {
@@ -213,10 +221,14 @@ Refinement LineRefiner::finish() {
     if (s.index[i] < s.faces.size()) {
       item.faces.push_back(s.faces[s.index[i]]);
       item.area_m2 = item.faces.front().area_m2;
-      item.observations = s.observer->observations(s.index[i]);
     }
     items.push_back(std::move(item));
   }
+  tbb::parallel_for(std::size_t{0}, items.size(), [&](std::size_t i) {
+    if (s.index[i] < s.faces.size()) {
+      items[i].observations = s.observer->observations(s.index[i]);
+    }
+  });
   s.result.points = s.observer->points();
   s.result.split = split_items(
       s.complex, s.apart, [&](const LineItem& item) { return s.prior_of(item); }, s.result.one_sided, items);
