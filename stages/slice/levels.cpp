@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages/slice/levels.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -291,18 +293,19 @@ std::vector<HeightMode> height_modes(const std::vector<SurfaceCell>& cells, cons
 
 std::vector<Level> find_levels(const HeightSurvey& survey, const std::vector<SurfaceCell>& cells,
                                const LevelRules& rules, std::vector<Level>* rejected) {
-  std::vector<Candidate> candidates;
+  const std::vector<HeightMode> modes = height_modes(cells, rules);
+  std::vector<Candidate> candidates(modes.size());
+  tbb::parallel_for(std::size_t{0}, modes.size(),
+                    [&](std::size_t i) { candidates[i] = measure(survey, cells, modes[i]); });
   double largest = 0;
-  for (const HeightMode& mode : height_modes(cells, rules)) {
-    candidates.push_back(measure(survey, cells, mode));
-    largest = std::max(largest, candidates.back().level.component_m2);
-  }
+  for (const Candidate& candidate : candidates) largest = std::max(largest, candidate.level.component_m2);
   const double smallest = std::max(0.5, std::min(rules.min_component_m2, 0.5 * largest));
   const CellIndex index(cells);
   const PlanMask empty_plan(cells, survey.raster_m);
-  for (Candidate& candidate : candidates) {
-    candidate.floor = candidate.level.component_m2 >= smallest && is_floor(candidate, survey, empty_plan);
-  }
+  tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
+    const bool large = candidates[i].level.component_m2 >= smallest;
+    candidates[i].floor = large && is_floor(candidates[i], survey, empty_plan);
+  });
   std::vector<Level> levels;
   for (const Candidate& candidate : candidates) {
     if (candidate.level.component_m2 >= smallest &&
@@ -349,10 +352,12 @@ void add_steps(std::vector<Level>& levels, const HeightSurvey& survey, const std
   constexpr double kEdge = 0.15;    // m; where floors and ceilings meet walls
   constexpr double kSteep = 2;      // times the horizontal area: a gentle vault stays flat
   const PlanMask building = footprint(levels, survey, cells);
+  PlanMask ceilings(cells, survey.raster_m);  // of all levels above
   std::vector<Level> steps;
-  for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
-    const std::vector<Level> above(levels.begin() + static_cast<std::ptrdiff_t>(k) + 1, levels.end());
-    const PlanMask ceilings = footprint(above, survey, cells);
+  for (std::size_t k = levels.empty() ? 0 : levels.size() - 1; k-- > 0;) {
+    for (const SurfaceCell& cell : cells) {
+      if (levels[k + 1].lo <= cell.z && cell.z <= levels[k + 1].hi) ceilings.add(cell);
+    }
     const Slopes slopes =
         slopes_between(survey.upright, building, ceilings, levels[k].hi + kEdge, levels[k + 1].lo - kEdge);
     if (slopes.sloped_m2 < std::max(kSmallest, kShare * slopes.upright_m2)) continue;

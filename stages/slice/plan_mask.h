@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "stages/slice/fixed_point.h"
 #include "stages/slice/surfaces.h"
 
 namespace roomcut {
@@ -40,9 +41,7 @@ class PlanMask {
   }
 
  private:
-  std::int32_t plan_cell(std::int32_t i) const {
-    return static_cast<std::int32_t>(std::floor((i + 0.5) * raster_m_ / kUprightPlan));
-  }
+  std::int32_t plan_cell(std::int32_t i) const { return floor_to_int((i + 0.5) * raster_m_ / kUprightPlan); }
   std::size_t index(std::int32_t x, std::int32_t y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(x);
   }
