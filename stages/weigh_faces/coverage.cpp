@@ -31,21 +31,20 @@ double window_density(const AreaTable& counts, const AreaTable& areas, int x, in
   return density;
 }
 
-std::vector<float> local_density(const std::vector<float>& points, const std::vector<float>& areas, int nx,
-                                 int ny) {
+std::vector<float> local_density(const std::vector<float>& points, const std::vector<float>& areas,
+                                 const AreaTable& area_table, int nx, int ny) {
   const AreaTable point_table(points, nx, ny);
   std::vector<float> density(points.size(), 0.0F);
-  const auto measure = [&](const AreaTable& area_table) {
+  const auto measure = [&](const AreaTable& surface) {
     std::size_t i = 0;
     for (int y = 0; y < ny; ++y) {
       for (int x = 0; x < nx; ++x, ++i) {
         if (points[i] > 0) {
-          density[i] = static_cast<float>(window_density(point_table, area_table, x, y));
+          density[i] = static_cast<float>(window_density(point_table, surface, x, y));
         }
       }
     }
   };
-  const AreaTable area_table(areas, nx, ny);
   measure(area_table);
   // Covered area of a window, at most the window.
   std::vector<float> covered(points.size(), 0.0F);

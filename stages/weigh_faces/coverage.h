@@ -54,8 +54,8 @@ double window_density(const AreaTable& counts, const AreaTable& areas, int x, in
 
 /// The density around every occupied bin (0 in the others), of the covered part of the surface only: first of
 /// the whole window, then again with the area that the first pass calls covered, so that the rim of a covered
-/// part is not taken for a thin one.
-std::vector<float> local_density(const std::vector<float>& points, const std::vector<float>& areas, int nx,
-                                 int ny);
+/// part is not taken for a thin one. `area_table`: of `areas`.
+std::vector<float> local_density(const std::vector<float>& points, const std::vector<float>& areas,
+                                 const AreaTable& area_table, int nx, int ny);
 
 }  // namespace roomcut

@@ -7,7 +7,7 @@
 namespace roomcut {
 
 Divisions::Divisions(const std::vector<double>& breaks, double bin, double margin)
-    : breaks_(breaks), step_(bin / 2) {
+    : breaks_(breaks), step_(bin / 2), per_step_(1 / step_) {
   first_.push_back(0);
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
     const double inset = std::min(margin, 0.2 * (breaks[i + 1] - breaks[i]));
@@ -37,7 +37,7 @@ int Divisions::find(double x) const {
   if (bins() == 0 || !(x >= breaks_.front()) || !(x < breaks_.back())) {
     return -1;
   }
-  const auto step = std::min(static_cast<std::size_t>((x - breaks_.front()) / step_), hint_.size() - 1);
+  const auto step = std::min(static_cast<std::size_t>((x - breaks_.front()) * per_step_), hint_.size() - 1);
   int at = std::max(0, hint_[step] - 1);  // one back: rounding of the step
   while (at < bins() && high(at) <= x) {
     ++at;

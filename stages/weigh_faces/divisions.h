@@ -33,7 +33,7 @@ class Divisions {
   std::vector<double> breaks_;
   std::vector<int> first_;          // bins of interval i: [first_[i], first_[i + 1])
   std::vector<double> low_, high_;  // of the bins
-  double step_ = 1;
+  double step_ = 1, per_step_ = 1;
   std::vector<std::int32_t> hint_;  // per step: the first bin that ends beyond its start
 };
 

@@ -27,15 +27,31 @@ void LevelRasters::add_bin(SparseCounts& counts, std::size_t level, const Vec2& 
   }
 }
 
-LevelRasters::Occupied LevelRasters::occupied_bins() const {
+LevelRasters::Plan LevelRasters::measure_plan() const {
+  Plan plan;
+  plan.bin_of_piece.reserve(faces_.pieces());
+  plan.bin_area.assign(faces_.grid().size(), 0.0F);
+  plan.face_area.assign(complex_.faces(), 0.0);
+  for (std::size_t bin = 0; bin < plan.bin_area.size(); ++bin) {
+    for (std::size_t i = faces_.first(bin); i < faces_.first(bin + 1); ++i) {
+      const FaceRaster::Piece& piece = faces_.piece(i);
+      plan.bin_of_piece.push_back(static_cast<std::uint32_t>(bin));
+      plan.bin_area[bin] += piece.area;
+      plan.face_area[static_cast<std::size_t>(piece.face)] += piece.area;
+    }
+  }
+  plan.area_table = AreaTable(plan.bin_area, faces_.grid().nx, faces_.grid().ny);
+  return plan;
+}
+
+LevelRasters::Occupied LevelRasters::occupied_bins(const Plan& plan) const {
   Occupied occupied(complex_.levels.size());
   tbb::parallel_for(std::size_t{0}, occupied.size(), [&](std::size_t level) {
     occupied[level].assign(faces_.grid().size(), 0);
-    for (std::size_t bin = 0; bin < faces_.grid().size(); ++bin) {
-      for (std::size_t i = faces_.first(bin); i < faces_.first(bin + 1) && occupied[level][bin] == 0; ++i) {
-        occupied[level][bin] = on_.at(level * faces_.pieces() + i) > 0 ? 1 : 0;
-      }
-    }
+    const std::size_t base = level * faces_.pieces();
+    on_.for_each(base, base + faces_.pieces(), [&](std::size_t i, std::uint32_t /*count*/) {
+      occupied[level][plan.bin_of_piece[i - base]] = 1;
+    });
   });
   return occupied;
 }
@@ -74,12 +90,21 @@ std::vector<LevelSides> LevelRasters::sides_of_faces(std::size_t level, const Oc
     }
     return false;
   };
+  const auto any_in = [&](const SparseCounts& counts) {
+    const std::size_t base = level * grid.size();
+    std::vector<std::uint8_t> any(grid.size(), 0);
+    counts.for_each(base, base + grid.size(),
+                    [&](std::size_t i, std::uint32_t /*count*/) { any[i - base] = 1; });
+    return any;
+  };
+  const std::vector<std::uint8_t> over = any_in(over_);
+  const std::vector<std::uint8_t> under = any_in(under_);
   std::size_t bin = 0;
   for (int iy = 0; iy < grid.ny; ++iy) {
     for (int ix = 0; ix < grid.nx; ++ix, ++bin) {
       LevelSides here;
-      here.over = over_.at(level * grid.size() + bin) > 0 ? 1 : 0;
-      here.under = under_.at(level * grid.size() + bin) > 0 ? 1 : 0;
+      here.over = over[bin];
+      here.under = under[bin];
       const bool on = occupied[level][bin] != 0;
       if (!on && (here.over + here.under == 0 || !near_surface(ix, iy))) {
         continue;
@@ -95,50 +120,54 @@ std::vector<LevelSides> LevelRasters::sides_of_faces(std::size_t level, const Oc
   return sides;
 }
 
-template <class CountOf>
-std::vector<float> LevelRasters::covered_share(const CountOf& count_of) const {
-  const PlanGrid& grid = faces_.grid();
-  std::vector<float> points(grid.size(), 0.0F);
-  std::vector<float> areas(grid.size(), 0.0F);
-  bool any = false;
-  for (std::size_t bin = 0; bin < grid.size(); ++bin) {
-    for (std::size_t i = faces_.first(bin); i < faces_.first(bin + 1); ++i) {
-      points[bin] += static_cast<float>(count_of(i));
-      areas[bin] += faces_.piece(i).area;
-    }
-    any = any || points[bin] > 0;
-  }
+std::vector<float> LevelRasters::covered_share(const Plan& plan, std::size_t base, const SparseCounts& counts,
+                                               const SparseCounts* more) const {
   std::vector<float> share(complex_.faces(), 0.0F);
-  if (!any) {
-    return share;
+  std::vector<std::uint8_t> seen(faces_.pieces(), 0);
+  std::vector<float> points(plan.bin_area.size(), 0.0F);
+  bool any = false;
+  const auto gather = [&](const SparseCounts& from) {
+    from.for_each(base, base + faces_.pieces(), [&](std::size_t i, std::uint32_t count) {
+      points[plan.bin_of_piece[i - base]] += static_cast<float>(count);
+      seen[i - base] = 1;
+      any = true;
+    });
+  };
+  gather(counts);
+  if (more != nullptr) {
+    gather(*more);
   }
-  const std::vector<float> density = local_density(points, areas, grid.nx, grid.ny);
-  std::vector<double> area(complex_.faces(), 0.0);
+  if (!any) {
+    return share;  // slopes: as in most buildings
+  }
+  const PlanGrid& grid = faces_.grid();
+  const std::vector<float> density = local_density(points, plan.bin_area, plan.area_table, grid.nx, grid.ny);
   std::vector<double> covered(complex_.faces(), 0.0);
-  for (std::size_t bin = 0; bin < grid.size(); ++bin) {
-    for (std::size_t i = faces_.first(bin); i < faces_.first(bin + 1); ++i) {
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (seen[i] != 0) {
       const FaceRaster::Piece& piece = faces_.piece(i);
-      const auto f = static_cast<std::size_t>(piece.face);
-      area[f] += piece.area;
-      covered[f] += count_of(i) > 0 ? piece.area * occupancy_weight(density[bin], piece.area) : 0;
+      covered[static_cast<std::size_t>(piece.face)] +=
+          piece.area * occupancy_weight(density[plan.bin_of_piece[i]], piece.area);
     }
   }
   for (std::size_t f = 0; f < share.size(); ++f) {
-    share[f] = area[f] > 0 ? static_cast<float>(std::min(1.0, covered[f] / area[f])) : 0.0F;
+    const double area = plan.face_area[f];
+    share[f] = area > 0 ? static_cast<float>(std::min(1.0, covered[f] / area)) : 0.0F;
   }
   return share;
 }
 
-void LevelRasters::weigh_level(std::size_t level, const Occupied& occupied, FaceWeights& weights) const {
+void LevelRasters::weigh_level(const Plan& plan, std::size_t level, const Occupied& occupied,
+                               FaceWeights& weights) const {
   const std::size_t base = level * faces_.pieces();
+  const auto face_of = [&](std::size_t i) { return static_cast<std::size_t>(faces_.piece(i - base).face); };
   std::vector<std::uint32_t> sloped(complex_.faces(), 0);
-  for (std::size_t i = 0; i < faces_.pieces(); ++i) {
-    const auto f = static_cast<std::size_t>(faces_.piece(i).face);
-    weights.level_points[complex_.level_face(f, level)] += on_.at(base + i);
-    sloped[f] += sloped_.at(base + i);
-  }
-  const std::vector<float> omega =
-      covered_share([&](std::size_t i) { return on_.at(base + i) + sloped_.at(base + i); });
+  on_.for_each(base, base + faces_.pieces(), [&](std::size_t i, std::uint32_t count) {
+    weights.level_points[complex_.level_face(face_of(i), level)] += count;
+  });
+  sloped_.for_each(base, base + faces_.pieces(),
+                   [&](std::size_t i, std::uint32_t count) { sloped[face_of(i)] += count; });
+  const std::vector<float> omega = covered_share(plan, base, on_, &sloped_);
   std::copy(omega.begin(), omega.end(),
             weights.level_omega.begin() + static_cast<std::ptrdiff_t>(complex_.level_face(0, level)));
   const std::vector<double> p_floor =
@@ -153,12 +182,8 @@ void LevelRasters::weigh_level(std::size_t level, const Occupied& occupied, Face
   }
 }
 
-void LevelRasters::weigh_slopes(std::size_t layer, FaceWeights& weights) const {
-  const std::size_t base = layer * faces_.pieces();
-  if (slope_.untouched(base, base + faces_.pieces())) {
-    return;  // no slopes there, as in most buildings
-  }
-  const std::vector<float> share = covered_share([&](std::size_t i) { return slope_.at(base + i); });
+void LevelRasters::weigh_slopes(const Plan& plan, std::size_t layer, FaceWeights& weights) const {
+  const std::vector<float> share = covered_share(plan, layer * faces_.pieces(), slope_, nullptr);
   std::copy(share.begin(), share.end(),
             weights.cell_slope.begin() + static_cast<std::ptrdiff_t>(complex_.cell(0, layer)));
 }
@@ -170,11 +195,12 @@ void LevelRasters::weigh(FaceWeights& weights) const {
   weights.level_ceiling.assign(faces, 0);
   weights.level_points.assign(faces, 0);
   weights.cell_slope.assign(complex_.cells(), 0);
-  const Occupied occupied = occupied_bins();
+  const Plan plan = measure_plan();
+  const Occupied occupied = occupied_bins(plan);
   tbb::parallel_for(std::size_t{0}, complex_.levels.size(), [&](std::size_t level) {
-    weigh_level(level, occupied, weights);
+    weigh_level(plan, level, occupied, weights);
     if (level < complex_.layers()) {
-      weigh_slopes(level, weights);
+      weigh_slopes(plan, level, weights);
     }
   });
 }

@@ -35,12 +35,23 @@ class LevelRasters {
   using Occupied =
       std::vector<std::vector<std::uint8_t>>;  // per level and bin: whether there are points on it
 
+  /// What all levels have in common: the plan.
+  struct Plan {
+    std::vector<std::uint32_t> bin_of_piece;
+    std::vector<float> bin_area;  ///< of the faces in a bin, without their margins [m²]
+    AreaTable area_table;         ///< of bin_area
+    std::vector<double> face_area;
+  };
+
   void add_bin(SparseCounts& counts, std::size_t level, const Vec2& p);
-  Occupied occupied_bins() const;
-  template <class CountOf>
-  std::vector<float> covered_share(const CountOf& count_of) const;
-  void weigh_level(std::size_t level, const Occupied& occupied, FaceWeights& weights) const;
-  void weigh_slopes(std::size_t layer, FaceWeights& weights) const;
+  Plan measure_plan() const;
+  Occupied occupied_bins(const Plan& plan) const;
+  /// The share of every face that is covered by the counters [base, base + pieces) of `counts`, or those of
+  /// `more` beside them.
+  std::vector<float> covered_share(const Plan& plan, std::size_t base, const SparseCounts& counts,
+                                   const SparseCounts* more) const;
+  void weigh_level(const Plan& plan, std::size_t level, const Occupied& occupied, FaceWeights& weights) const;
+  void weigh_slopes(const Plan& plan, std::size_t layer, FaceWeights& weights) const;
   std::vector<LevelSides> sides_of_faces(std::size_t level, const Occupied& occupied) const;
   void add_gap(std::size_t level, std::size_t bin, const Occupied& occupied, LevelSides& sides) const;
 

@@ -10,7 +10,7 @@ namespace roomcut {
 
 PointSorter::NearLevel PointSorter::nearest_level(double z) const {
   const std::vector<double>& levels = complex_.levels;
-  auto above = static_cast<std::size_t>(std::lower_bound(levels.begin(), levels.end(), z) - levels.begin());
+  std::size_t above = heights_.first_not_below(z);
   if (above == levels.size() || (above > 0 && z - levels[above - 1] <= levels[above] - z)) {
     --above;
   }
@@ -94,8 +94,7 @@ void PointSorter::add_beside_walls(const Vec2& p, std::size_t level) {
 
 void PointSorter::add_beside_levels(const Vec2& p, double z) {
   const std::vector<double>& levels = complex_.levels;
-  const auto above =
-      static_cast<std::size_t>(std::lower_bound(levels.begin(), levels.end(), z) - levels.begin());
+  const std::size_t above = heights_.first_not_below(z);
   const auto in_band = [this](double gap) {
     return gap >= tolerances_.over_low && gap <= tolerances_.over_high;
   };

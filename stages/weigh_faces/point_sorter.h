@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/cells/cell_complex.h"
+#include "common/cells/level_finder.h"
 #include "common/cloud/cloud.h"
 #include "stages/weigh_faces/level_rasters.h"
 #include "stages/weigh_faces/line_grid.h"
@@ -16,9 +17,10 @@ namespace roomcut {
 /// at a time; the counters that it fills are shared.
 class PointSorter {
  public:
-  PointSorter(const CellComplex& complex, const Tolerances& tolerances, const LineGrid& lines,
-              WallRasters& walls, LevelRasters& levels, SparseCounts& inside)
+  PointSorter(const CellComplex& complex, const Tolerances& tolerances, const LevelFinder& heights,
+              const LineGrid& lines, WallRasters& walls, LevelRasters& levels, SparseCounts& inside)
       : complex_(complex),
+        heights_(heights),
         tolerances_(tolerances),
         lines_(lines),
         walls_(walls),
@@ -49,6 +51,7 @@ class PointSorter {
   const PlanLine& line(std::int32_t index) const { return lines_.line(index); }
 
   const CellComplex& complex_;
+  const LevelFinder& heights_;
   const Tolerances& tolerances_;
   const LineGrid& lines_;
   WallRasters& walls_;

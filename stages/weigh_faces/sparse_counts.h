@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -37,14 +38,22 @@ class SparseCounts {
     const std::atomic<std::uint32_t>* block = table_[index / kBlock].load(std::memory_order_relaxed);
     return block == nullptr ? 0 : block[index % kBlock].load(std::memory_order_relaxed);
   }
-  /// Whether all of [begin, end) is 0, as far as blocks without memory tell. Likewise.
-  bool untouched(std::size_t begin, std::size_t end) const {
+  /// Calls visit(index, count) for the counters of [begin, end) that are not 0, ascending. Likewise.
+  template <class Visit>
+  void for_each(std::size_t begin, std::size_t end, Visit&& visit) const {
     for (std::size_t b = begin / kBlock; b * kBlock < end; ++b) {
-      if (table_[b].load(std::memory_order_relaxed) != nullptr) {
-        return false;
+      const std::atomic<std::uint32_t>* block = table_[b].load(std::memory_order_relaxed);
+      if (block == nullptr) {
+        continue;
+      }
+      const std::size_t last = std::min(end, (b + 1) * kBlock);
+      for (std::size_t i = std::max(begin, b * kBlock); i < last; ++i) {
+        const std::uint32_t count = block[i % kBlock].load(std::memory_order_relaxed);
+        if (count > 0) {
+          visit(i, count);
+        }
       }
     }
-    return true;
   }
 
  private:

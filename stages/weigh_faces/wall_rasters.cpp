@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "stages/weigh_faces/wall_sides.h"
 
@@ -97,13 +98,13 @@ WallRasters::Tables WallRasters::tables_of(const Raster& raster) const {
       points[i] = static_cast<float>(on_.at(bin_index(raster, column, row)));
     }
   }
-  const std::vector<float> density = local_density(points, area, columns, rows);
+  AreaTable area_table(area, columns, rows);
+  const std::vector<float> density = local_density(points, area, area_table, columns, rows);
   std::vector<float> covered(size, 0.0F);
   for (i = 0; i < size; ++i) {
     covered[i] = points[i] > 0 ? static_cast<float>(area[i] * occupancy_weight(density[i], area[i])) : 0.0F;
   }
-  return {AreaTable(area, columns, rows), AreaTable(covered, columns, rows),
-          AreaTable(points, columns, rows)};
+  return {std::move(area_table), AreaTable(covered, columns, rows), AreaTable(points, columns, rows)};
 }
 
 Divisions::Range WallRasters::columns_of(std::size_t edge, const Raster& raster) const {

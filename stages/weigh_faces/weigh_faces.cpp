@@ -14,6 +14,7 @@ struct FaceWeigher::State {
   State(const CellComplex& c, const CloudHeader& cloud, const WeighFacesParams& params)
       : complex(c),
         tolerances(resolve_tolerances(params, cloud)),
+        heights(c.levels),
         lines(c, std::max(tolerances.wall_alone, tolerances.beside_high), tolerances.azimuth),
         walls(c, tolerances),
         levels(c, tolerances),
@@ -21,6 +22,7 @@ struct FaceWeigher::State {
 
   const CellComplex& complex;
   Tolerances tolerances;
+  LevelFinder heights;
   LineGrid lines;
   WallRasters walls;
   LevelRasters levels;
@@ -36,8 +38,8 @@ const Tolerances& FaceWeigher::tolerances() const {
 }
 
 void FaceWeigher::add(const CloudTile& tile) {
-  PointSorter sorter(state_->complex, state_->tolerances, state_->lines, state_->walls, state_->levels,
-                     state_->inside);
+  PointSorter sorter(state_->complex, state_->tolerances, state_->heights, state_->lines, state_->walls,
+                     state_->levels, state_->inside);
   for (std::size_t i = 0; i < tile.size(); ++i) {
     sorter.add({tile.x[i], tile.y[i], tile.z[i]}, static_cast<SurfaceClass>(tile.surface[i]),
                tile.azimuth[i]);
