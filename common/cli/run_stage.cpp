@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <new>
+#include <optional>
 
 #include "common/artefact/stamp.h"
 #include "common/artefact/unsynced_file.h"
@@ -245,8 +246,12 @@ int run_stage(int argc, char** argv, const StageInfo& info, ParameterTable table
         state.quiet = line.quiet;
         state.verbose = line.verbose;
         state.threads = line.threads > 0 ? line.threads : available_threads();
-        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                        static_cast<std::size_t>(state.threads));
+        // All available threads are TBB's own default; to ask for them costs a millisecond of looking for
+        // libraries.
+        std::optional<tbb::global_control> limit;
+        if (line.threads > 0) {
+          limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(line.threads));
+        }
         echo_settings(info, state, table);
         StageRun run(state);
         if (!line.stamp.empty()) {

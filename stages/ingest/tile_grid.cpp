@@ -102,6 +102,17 @@ void TileGrid::sort_column(std::size_t first, std::size_t last) {
   }
 }
 
+std::size_t TileGrid::count_voxels() const {
+  std::size_t voxels = 0;
+  std::size_t i = 0;
+  for (std::size_t column = 0; column + 1 < columns_begin_.size(); ++column) {
+    for (const std::size_t first = i; i < columns_begin_[column]; ++i) {
+      voxels += i == first || sorted_[i].height != sorted_[i - 1].height ? 1 : 0;
+    }
+  }
+  return voxels;
+}
+
 void TileGrid::sum_moments(const UnitScale& scale) {
   VoxelLevel& level = levels_[0];
   const auto relative = [&](float metres, std::size_t axis) {
@@ -141,7 +152,7 @@ void TileGrid::finish() {
 void TileGrid::build(const TilePoints& points, const TilePlace& place, const UnitScale& scale) {
   begin(place, *std::min_element(points.z.begin(), points.z.end()), scale);
   sort_rows(points, {}, place, scale);
-  levels_[0].reserve(sorted_.size());
+  levels_[0].reserve(count_voxels());
   sum_moments(scale);
   finish();
 }

@@ -52,6 +52,9 @@ class TileGrid {
   void find_keys(const TilePoints& points, const TilePlace& place, const UnitScale& scale);
   void sort_keyed(const TilePoints& points);
   void sort_column(std::size_t first, std::size_t last);
+  /// Of the sorted points: room for as many voxels as points, which fresh tiles would ask for, is three times
+  /// what is needed.
+  std::size_t count_voxels() const;
 
   std::array<std::int32_t, 3>
       corner_{};  ///< of the halo, local units; the base in height is a coarsest voxel's

@@ -112,10 +112,10 @@ void FaceWalk::follow(const Ray& ray, std::vector<Crossing>& crossings, double l
   std::size_t layer = ray.layer;
   double now = 0;
   double left = 1;  // of the ray
+  double level_at = level_exit(ray, layer);
   // Every step crosses an edge or a level; rounding at a sliver may not send a ray around for ever.
   for (std::size_t step = 0; step < complex_.edges.size() + complex_.levels.size(); ++step) {
     const Exit exit = side_exit(ray, face);
-    const double level_at = level_exit(ray, layer);
     const double next = std::min(exit.at, level_at);
     if (next > limit_m || next == std::numeric_limits<double>::infinity()) {
       return;
@@ -133,6 +133,7 @@ void FaceWalk::follow(const Ray& ray, std::vector<Crossing>& crossings, double l
         return;
       }
       layer = up ? layer + 1 : layer - 1;
+      level_at = level_exit(ray, layer);
     }
     left *= 1 - crossings.back().front - crossings.back().back;
     if (opaque > 0 && left < opaque) {
