@@ -84,8 +84,9 @@ IndexedPixels index_colours(std::span<const Colour> pixels) {
 
 }  // namespace
 
-std::vector<std::uint8_t> encode_png(const Image& image) {
-  const IndexedPixels indexed = index_colours(image.pixels());
+std::vector<std::uint8_t> encode_png(const Image& image, PngPixels pixels) {
+  const IndexedPixels indexed =
+      pixels == PngPixels::kSmallest ? index_colours(image.pixels()) : IndexedPixels{};
   const bool has_palette = !indexed.index.empty();
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
@@ -97,10 +98,10 @@ std::vector<std::uint8_t> encode_png(const Image& image) {
   png.flags = PNG_IMAGE_FLAG_FAST;
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
   std::vector<std::uint8_t> bytes(size);
-  const void* const pixels =
+  const void* const data =
       has_palette ? static_cast<const void*>(indexed.index.data()) : image.pixels().data();
   const void* const palette = has_palette ? indexed.palette.data() : nullptr;
-  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, pixels, 0, palette) == 0) {
+  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, data, 0, palette) == 0) {
     throw std::runtime_error(std::string("libpng: ") + png.message);
   }
   bytes.resize(size);

@@ -46,9 +46,15 @@ class Image {
 /// size and halving smooths edges.
 void halve_rows(const Colour* upper, const Colour* lower, int width, Colour* out);
 
-/// The bytes of a PNG file (libpng, no time stamp: equal pictures give equal bytes); with a palette when the
-/// picture has no more than 256 colours: a third of the bytes to compress.
-std::vector<std::uint8_t> encode_png(const Image& image);
+/// How a PNG file holds its pixels.
+enum class PngPixels {
+  kRgb,      ///< red, green, blue: for rasters that other programs compute with
+  kSmallest  ///< with a palette when the picture has no more than 256 colours: a third of the bytes to
+             ///< compress
+};
+
+/// The bytes of a PNG file (libpng, no time stamp: equal pictures give equal bytes).
+std::vector<std::uint8_t> encode_png(const Image& image, PngPixels pixels = PngPixels::kSmallest);
 
 /// Publishes a PNG file whole or not at all. Throws StageError(kCannotWrite).
 void write_png(const std::filesystem::path& path, const Image& image);

@@ -7,7 +7,7 @@ namespace roomcut {
 
 struct ReportParams {
   int picture_px = 1100;      ///< width of model views
-  int cloud_points = 300000;  ///< points drawn in the view of the cloud
+  int cloud_points = 200000;  ///< points of the scan in picture and page
 };
 
 inline ParameterTable report_table(ReportParams& p) {

@@ -80,7 +80,7 @@ std::vector<Picture> draw_layers(const StageRun& run) {
   for (std::size_t k = 0; k < slices.wall_slices.size(); ++k) {
     const GridRaster raster = occupancy_raster(slices, k);
     const std::string name = "slice_" + std::to_string(k);
-    const auto png = encode_png(raster.image);
+    const auto png = encode_png(raster.image, PngPixels::kRgb);
     files.push_back({"slice", name + ".pgw", "", "", world_file(raster, slices.tau_m)});
     files.push_back({"slice", name + ".png.aux.xml", "", "", aux_file(raster, slices.tau_m, kLocalCrs)});
     files.push_back({"slice", name + ".png", "", "", {png.begin(), png.end()}});

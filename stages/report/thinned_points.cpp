@@ -26,6 +26,7 @@ std::vector<ThinPoint> thinned_points(const StageRun& run, std::uint64_t most) {
   }
   const std::uint64_t step = header.points / std::max<std::uint64_t>(most, 1) + 1;
   std::vector<ThinPoint> points;
+  points.reserve(header.points / step + cloud.tiles());
   CloudTile part;
   for (std::size_t t = 0; t < cloud.tiles(); ++t) {
     const std::uint64_t size = header.tile_offset[t + 1] - header.tile_offset[t];

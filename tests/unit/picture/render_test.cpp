@@ -106,6 +106,9 @@ TEST(EncodePng, KeepsEveryPixelWithAPaletteAndWithout) {
     EXPECT_EQ(std::memcmp(pixels.data(), image.pixels().data(), pixels.size()), 0) << colours << " colours";
     constexpr std::size_t kColourType = 25;  // of the header: 3 = palette, 2 = red, green, blue
     EXPECT_EQ(bytes[kColourType], colours <= 256 ? 3 : 2);
+    const auto plain = encode_png(image, PngPixels::kRgb);
+    EXPECT_EQ(plain[kColourType], 2);
+    EXPECT_EQ(decoded(plain), pixels);
   }
 }
 
