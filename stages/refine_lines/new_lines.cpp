@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages/refine_lines/new_lines.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <iterator>
 #include <optional>
@@ -79,13 +81,16 @@ int split_items(const CellComplex& complex, double apart_m,
   const std::vector<double> heights = layer_heights(complex);
   std::set<std::string> ids = ids_of(items);
   const std::size_t whole = items.size();
-  for (std::size_t i = 0; i < whole; ++i) {
-    if (items[i].users || items[i].faces.empty()) {
-      continue;
+  std::vector<std::vector<LinePart>> parts_of(whole);
+  tbb::parallel_for(std::size_t{0}, whole, [&](std::size_t i) {
+    const LineItem& item = items[i];
+    if (!item.users && !item.faces.empty()) {
+      parts_of[i] = split_line(item.faces.front(), item.observations, heights, prior_of(item), apart_m);
     }
-    std::vector<LinePart> parts =
-        split_line(items[i].faces.front(), items[i].observations, heights, prior_of(items[i]), apart_m);
-    if (parts.size() == 1) {
+  });
+  for (std::size_t i = 0; i < whole; ++i) {
+    std::vector<LinePart>& parts = parts_of[i];
+    if (parts.size() < 2) {
       continue;
     }
     const std::string id = items[i].wall.id;
