@@ -25,6 +25,10 @@ class AtomicFile {
   /// Appends `bytes` to the temporary file. Throws StageError(kCannotWrite).
   void write(std::string_view bytes) const;
 
+  /// Lets the system begin to write out what is in the temporary file, and does not wait: commit() then waits
+  /// for the rest only.
+  void start_writing_out() const noexcept;
+
   /// fsync of the file, rename, fsync of the folder. With `keep_time` the file takes over the modification
   /// time of the one that it replaces: Make then sees nothing new. Throws StageError(kCannotWrite).
   void commit(bool keep_time = false);

@@ -22,12 +22,18 @@ struct H5Writer::Stream {
   Sha256 sha;
 };
 
+namespace {
+constexpr std::uint64_t kWriteOut = std::uint64_t{4}
+                                    << 20;  ///< bytes after which the disk gets something to do
+}
+
 struct H5Writer::State {
   AtomicFile atomic;
   Provenance provenance;
   Handle file;
   std::map<std::string, Stream> streams;
   h5::PayloadDigest digest;
+  std::uint64_t since_write_out = 0;  ///< bytes
 
   ArtefactType type;
 
@@ -163,6 +169,11 @@ void H5Writer::append_raw(const std::string& path, const void* data, std::size_t
                   name);
   stream.sha.update(data, count * size);
   stream.done += count;
+  state_->since_write_out += count * size;
+  if (state_->since_write_out >= kWriteOut) {
+    state_->atomic.start_writing_out();
+    state_->since_write_out = 0;
+  }
 }
 
 void H5Writer::write_raw(const std::string& path, const void* data, std::size_t count, hid_t memory_type,

@@ -34,8 +34,8 @@ void HoughAccumulator::vote(const Vec2& p, double theta, double window, double w
   const auto reach = static_cast<std::ptrdiff_t>(std::floor(window / angle_step_));
   const auto n = static_cast<std::ptrdiff_t>(angles_);
   const Vec2 arm = p - centre_;
-  for (std::ptrdiff_t a = middle - reach; a <= middle + reach; ++a) {
-    const auto angle = static_cast<std::size_t>((a % n + n) % n);
+  auto angle = static_cast<std::size_t>(((middle - reach) % n + n) % n);
+  for (std::ptrdiff_t a = -reach; a <= reach; ++a, angle = angle + 1 < angles_ ? angle + 1 : 0) {
     const double position = (normals_[angle].dot(arm) + radius_) / distance_step_;
     const auto bin = static_cast<std::size_t>(std::clamp(position, 1.0, static_cast<double>(distances_) - 2));
     std::int32_t* row = &votes_[angle * distances_ + bin];

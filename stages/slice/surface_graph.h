@@ -24,10 +24,10 @@ class DisjointSets {
     }
     return i;
   }
-  void join(std::size_t a, std::size_t b) {
-    a = root(a);
-    b = root(b);
-    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
+  /// Joins the sets of two different roots; returns the root of both.
+  std::size_t join_roots(std::size_t a, std::size_t b) {
+    parent_[std::max(a, b)] = std::min(a, b);
+    return std::min(a, b);
   }
 
  private:
@@ -103,6 +103,7 @@ DisjointSets connect_cells(const std::vector<SurfaceCell>& cells, double raster_
                  [&](const SurfaceCell& c) { return reach_of(c, raster_m); });
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const SurfaceCell& cell = cells[i];
+    std::size_t root = sets.root(i);
     for (std::int32_t dy = 0; dy <= reach[i];
          ++dy) {  // the other half of the neighbours meets this cell from there
       const auto [from, to] =
@@ -110,7 +111,9 @@ DisjointSets connect_cells(const std::vector<SurfaceCell>& cells, double raster_
       for (std::size_t j = from; j < to; ++j) {
         const std::int32_t near = std::min(reach[i], reach[j]);
         const std::int32_t dx = cell.ix - cells[j].ix;
-        if (dx * dx + dy * dy <= near * near && connected(cells[j], cell)) sets.join(i, j);
+        if (dx * dx + dy * dy > near * near) continue;
+        const std::size_t other = sets.root(j);
+        if (other != root && connected(cells[j], cell)) root = sets.join_roots(root, other);
       }
     }
   }

@@ -2,6 +2,7 @@
 #include "stages/slice/survey.h"
 
 #include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cmath>
@@ -129,8 +130,8 @@ HeightSurvey survey_heights(const CloudHeader& header, const TileSource& tiles, 
 
   HeightSurvey survey;
   survey.raster_m = raster_m;
-  survey.patches = to_patches(std::move(patches));
-  survey.upright = to_blocks(std::move(upright));
+  tbb::parallel_invoke([&] { survey.patches = to_patches(std::move(patches)); },
+                       [&] { survey.upright = to_blocks(std::move(upright)); });
   survey.horizontal = histogram(z0, bin_m, threads, bins);
   return survey;
 }
