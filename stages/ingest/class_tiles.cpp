@@ -147,7 +147,7 @@ SurfaceSummary class_tiles(const TiledScan& scan, const IngestParams& params, co
     std::shared_ptr<FinishedTile> finished = tiles.take();
     const KeptTile& tile = scan.tiles[index];
     // One that is not much larger than a band is worked on faster as a whole.
-    if (tile.points > 2 * scan.band_points) {
+    if (tile.points > 4 * scan.band_points) {
       class_large_tile(scan, tile, scale, params, *finished);
     } else {
       class_tile(scan, tile, scale, workshops.local(), *finished);

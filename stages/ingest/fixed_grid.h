@@ -42,16 +42,19 @@ class UnitScale {
   double voxel_edge_m_;
 };
 
-/// Rows of columns of a tile with its halo, from `begin` to before `end`; all of them by default.
-struct TileRows {
+/// Columns of a tile with its halo, row by row, from `begin` to before `end`; all of them by default.
+struct TileColumns {
+  static constexpr int kAlong = fixed_grid::kTileVoxels + 2 * fixed_grid::kHaloVoxels;  ///< in a row
   int begin = 0;
-  int end = fixed_grid::kTileVoxels + 2 * fixed_grid::kHaloVoxels;
+  int end = kAlong * kAlong;
 };
 
-/// The row of a point in tile row `iy` or its halo.
-inline int row_of(float y, std::int32_t iy, const UnitScale& scale) {
+/// The column of a point in tile (ix, iy) or its halo.
+inline int column_of(float x, float y, std::int32_t ix, std::int32_t iy, const UnitScale& scale) {
   using namespace fixed_grid;
-  return (scale.units(y) - (iy * kTileUnits - kHaloUnits)) >> kVoxelBits;
+  const std::int32_t column = (scale.units(x) - (ix * kTileUnits - kHaloUnits)) >> kVoxelBits;
+  const std::int32_t row = (scale.units(y) - (iy * kTileUnits - kHaloUnits)) >> kVoxelBits;
+  return row * TileColumns::kAlong + column;
 }
 
 }  // namespace roomcut

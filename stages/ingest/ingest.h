@@ -31,7 +31,7 @@ struct ScanSettings {
   std::filesystem::path scratch_folder;                   ///< for points beyond the memory budget
   std::string name;                                       ///< of the scan, for messages
   std::uint64_t band_points =
-      1'000'000;  ///< of a tile with more than twice as many, so many are held at a time
+      500'000;  ///< of a tile with more than four times as many, so many are held at a time
 };
 
 using Advance = std::function<void(std::uint64_t)>;

@@ -20,28 +20,28 @@ LargeTile::LargeTile(const TileStore& store, std::uint32_t tile, const TilePlace
       scale_(scale),
       file_(store.scratch_folder()),
       finder_(params) {
-  std::vector<std::uint32_t> row_points(static_cast<std::size_t>(TileRows().end), 0);
+  std::vector<std::uint32_t> column_points(static_cast<std::size_t>(TileColumns().end), 0);
   float lowest_z = std::numeric_limits<float>::max();
   store.for_runs(tile, [&](const TileRun& run) {
     for (std::size_t i = 0; i < run.points; ++i) {
-      ++row_points[static_cast<std::size_t>(row_of(run.y[i], place.iy, scale))];
+      ++column_points[static_cast<std::size_t>(column_of(run.x[i], run.y[i], place.ix, place.iy, scale))];
       lowest_z = std::min(lowest_z, run.z[i]);
     }
   });
-  cut_bands(row_points, band_points);
+  cut_bands(column_points, band_points);
   fill_file();
   grid_.begin(place, lowest_z, scale);
 }
 
-/// Bands from below without a gap.
-void LargeTile::cut_bands(const std::vector<std::uint32_t>& row_points, std::uint64_t band_points) {
+/// Bands from the first column without a gap.
+void LargeTile::cut_bands(const std::vector<std::uint32_t>& column_points, std::uint64_t band_points) {
   bands_.push_back({{0, 0}, 0, 0});
-  for (const std::uint32_t here : row_points) {
+  for (const std::uint32_t here : column_points) {
     const Band& last = bands_.back();
     if (last.points > 0 && last.points + here > band_points) {
-      bands_.push_back({{last.rows.end, last.rows.end}, last.first + last.points, 0});
+      bands_.push_back({{last.columns.end, last.columns.end}, last.first + last.points, 0});
     }
-    ++bands_.back().rows.end;
+    ++bands_.back().columns.end;
     bands_.back().points += here;
   }
 }
@@ -52,10 +52,10 @@ void LargeTile::fill_file() {
     std::uint64_t at = 0;  // of the file, in records
   };
   std::vector<Waiting> waiting(bands_.size());
-  std::vector<std::size_t> band_of_row;
+  std::vector<std::uint32_t> band_of_column;
   for (std::size_t b = 0; b < bands_.size(); ++b) {
     waiting[b].at = bands_[b].first;
-    band_of_row.resize(static_cast<std::size_t>(bands_[b].rows.end), b);
+    band_of_column.resize(static_cast<std::size_t>(bands_[b].columns.end), static_cast<std::uint32_t>(b));
   }
   const auto write = [&](Waiting& band) {
     file_.write(band.at * sizeof(Record), std::as_bytes(std::span<const Record>(band.records)));
@@ -64,7 +64,8 @@ void LargeTile::fill_file() {
   };
   store_.for_runs(tile_, [&](const TileRun& run) {
     for (std::size_t i = 0; i < run.points; ++i) {
-      Waiting& band = waiting[band_of_row[static_cast<std::size_t>(row_of(run.y[i], place_.iy, scale_))]];
+      const int column = column_of(run.x[i], run.y[i], place_.ix, place_.iy, scale_);
+      Waiting& band = waiting[band_of_column[static_cast<std::size_t>(column)]];
       band.records.push_back(
           {run.x[i], run.y[i], run.z[i], run.hint != nullptr ? run.hint[i] : std::uint16_t{0}});
       if (band.records.size() == kChunk) {
@@ -93,7 +94,7 @@ void LargeTile::sort_band(const Band& band) {
       }
     }
   }
-  grid_.sort_rows(points_, band.rows, place_, scale_);
+  grid_.sort_columns(points_, band.columns, place_, scale_);
 }
 
 bool LargeTile::find_surfaces(SurfaceEstimates& estimates) {

@@ -9,12 +9,13 @@
 
 namespace roomcut {
 
-/// A tile with more points than memory should hold at once. They are taken from the store in bands of rows,
-/// once for the moments, from which the surfaces follow as for any tile, and once to be handed on. Memory:
-/// the voxels, and the points of one band.
+/// A tile with more points than memory should hold at once. They are taken from the store in bands of
+/// columns, once for the moments, from which the surfaces follow as for any tile, and once to be handed on.
+/// Memory: the voxels, and the points of one band.
 class LargeTile {
  public:
-  /// A band has at most `band_points`, or one row. `store` must outlive this.
+  /// A band has at most `band_points`, or one column: a row may hold millions, when a wall runs along it.
+  /// `store` must outlive this.
   LargeTile(const TileStore& store, std::uint32_t tile, const TilePlace& place, const UnitScale& scale,
             const IngestParams& params, std::uint64_t band_points);
 
@@ -27,7 +28,7 @@ class LargeTile {
 
  private:
   struct Band {
-    TileRows rows;
+    TileColumns columns;
     std::uint64_t first = 0, points = 0;  ///< of the file
   };
   struct Record {
@@ -35,7 +36,7 @@ class LargeTile {
     std::uint16_t hint;
     std::uint16_t unused = 0;  // no byte of the file is left to chance
   };
-  void cut_bands(const std::vector<std::uint32_t>& row_points, std::uint64_t band_points);
+  void cut_bands(const std::vector<std::uint32_t>& column_points, std::uint64_t band_points);
   void fill_file();
   void sort_band(const Band& band);
 

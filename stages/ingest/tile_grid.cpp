@@ -10,7 +10,7 @@ using namespace fixed_grid;
 namespace {
 
 constexpr std::uint16_t kDropped = 0xffff;
-constexpr int kColumns = kTileVoxels + 2 * kHaloVoxels;
+constexpr int kColumns = TileColumns::kAlong;
 constexpr std::uint64_t kAllLayers = ~std::uint64_t{0};
 
 /// -1, 0, 1: below, inside or above the tile, for units from the halo's corner.
@@ -119,9 +119,8 @@ void TileGrid::sum_moments(const UnitScale& scale) {
     return static_cast<std::uint32_t>(scale.units(metres) - corner_[axis]);
   };
   std::size_t i = 0;
-  const auto first_column = static_cast<std::size_t>(rows_.begin) * kColumns;
-  const auto last_column = static_cast<std::size_t>(rows_.end) * kColumns;
-  for (std::size_t column = first_column; column < last_column; ++column) {
+  for (auto column = static_cast<std::size_t>(columns_.begin);
+       column < static_cast<std::size_t>(columns_.end); ++column) {
     level.begin.push_back(static_cast<std::uint32_t>(level.size()));
     for (const std::size_t end = columns_begin_[column]; i < end;) {
       const std::uint16_t height = sorted_[i].height;
@@ -135,9 +134,9 @@ void TileGrid::sum_moments(const UnitScale& scale) {
   }
 }
 
-void TileGrid::sort_rows(const TilePoints& points, const TileRows& rows, const TilePlace& place,
-                         const UnitScale& scale) {
-  rows_ = rows;
+void TileGrid::sort_columns(const TilePoints& points, const TileColumns& columns, const TilePlace& place,
+                            const UnitScale& scale) {
+  columns_ = columns;
   find_keys(points, place, scale);
   sort_keyed(points);
 }
@@ -151,7 +150,7 @@ void TileGrid::finish() {
 
 void TileGrid::build(const TilePoints& points, const TilePlace& place, const UnitScale& scale) {
   begin(place, *std::min_element(points.z.begin(), points.z.end()), scale);
-  sort_rows(points, {}, place, scale);
+  sort_columns(points, {}, place, scale);
   levels_[0].reserve(count_voxels());
   sum_moments(scale);
   finish();

@@ -19,8 +19,8 @@ struct TilePlace {
 };
 
 /// The points of one tile and its halo sorted by voxel, and their moments at every level. A tile with many
-/// points is built from bands of rows, one after the other: their moments stay, only the last band's points
-/// do.
+/// points is built from bands of columns, one after the other: their moments stay, only the last band's
+/// points do.
 class TileGrid {
  public:
   struct Point {
@@ -32,17 +32,17 @@ class TileGrid {
   /// Sorts by (column, height); points of one voxel keep file order. Time linear in the points.
   void build(const TilePoints& points, const TilePlace& place, const UnitScale& scale);
 
-  /// The same in bands: begin(), from below without a gap sort_rows() and sum_moments(), finish(). Afterwards
-  /// bands may be sorted again. `lowest_z` [m] is that of all points.
+  /// The same in bands: begin(), from the first without a gap sort_columns() and sum_moments(), finish().
+  /// Afterwards bands may be sorted again. `lowest_z` [m] is that of all points.
   void begin(const TilePlace& place, float lowest_z, const UnitScale& scale);
-  void sort_rows(const TilePoints& points, const TileRows& rows, const TilePlace& place,
-                 const UnitScale& scale);
+  void sort_columns(const TilePoints& points, const TileColumns& columns, const TilePlace& place,
+                    const UnitScale& scale);
   void sum_moments(const UnitScale& scale);
   void finish();
 
   /// Of the last band.
   const std::vector<Point>& points() const { return sorted_; }
-  const TileRows& rows() const { return rows_; }
+  const TileColumns& columns() const { return columns_; }
   VoxelLevel& level(int i) { return levels_[static_cast<std::size_t>(i)]; }
   const VoxelLevel& level(int i) const { return levels_[static_cast<std::size_t>(i)]; }
   /// Centre of a voxel in units from the tile's corner, as the moments count.
@@ -62,7 +62,7 @@ class TileGrid {
   std::vector<std::uint32_t> columns_begin_;
   std::vector<std::uint32_t> heights_begin_;  ///< of one column
   std::vector<Point> column_points_, sorted_;
-  TileRows rows_;
+  TileColumns columns_;
   std::array<VoxelLevel, fixed_grid::kLevels> levels_;
 };
 

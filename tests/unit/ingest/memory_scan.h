@@ -103,6 +103,7 @@ struct MadeCloud {
   CloudHeader header;
   std::vector<CloudTile> tiles;
   IngestCounts counts;
+  std::size_t largest_part = 0;  ///< points that were handed over at once
 };
 
 inline void append(const CloudTile& part, CloudTile& tile) {
@@ -122,6 +123,7 @@ inline MadeCloud make_cloud(const ScanReader& reader, const ScanSettings& settin
   cloud.header = header_of(scan, reader.stations(), params);
   const SurfaceSummary summary =
       class_tiles(scan, params, [&, first = true](const CloudTile& part, bool last) mutable {
+        cloud.largest_part = std::max(cloud.largest_part, part.size());
         if (first) {
           cloud.tiles.push_back(part);
         } else {
