@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages/refine_lines/carried_layers.h"
 
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -42,6 +45,7 @@ struct Load {
   std::size_t line = 0;
   double length = 0;  ///< weighted [m]
   std::vector<Run> runs;
+  Eigen::AlignedBox2d box;  ///< of the runs in plan [m]
 };
 
 using Loads = std::vector<std::vector<Load>>;  ///< per layer, then line
@@ -79,6 +83,8 @@ Loads find_loads(const CellComplex& complex, const FaceWeights& weights,
           load.runs.emplace_back();
         }
         load.runs.back().pieces.push_back(piece);
+        load.box.extend(complex.lines[i].line.at(piece.t0));
+        load.box.extend(complex.lines[i].line.at(piece.t1));
         load.length += piece.weight * (piece.t1 - piece.t0);
       }
     }
@@ -94,9 +100,12 @@ bool carries_at(const Load& load, double t) {
 /// What the runs of `load` carry beside everything that the `longer` ones carry.
 void measure_own(const CellComplex& complex, const std::vector<const Load*>& longer, Load& load) {
   const Line2& line = complex.lines[load.line].line;
+  const Vec2 reach = Vec2::Constant(2 * kBeside_m);
+  const Eigen::AlignedBox2d around(load.box.min() - reach, load.box.max() + reach);
   std::vector<const Load*> near;
   std::copy_if(longer.begin(), longer.end(), std::back_inserter(near), [&](const Load* other) {
-    return angle_between(complex.lines[other->line].line.theta, line.theta) < kSimilar_rad;
+    return around.intersects(other->box) &&
+           angle_between(complex.lines[other->line].line.theta, line.theta) < kSimilar_rad;
   });
   const auto is_beside = [&](const Vec2& place) {
     return std::any_of(near.begin(), near.end(), [&](const Load* other) {
@@ -155,7 +164,8 @@ bool CarriedLine::holds(std::size_t layer, double t) const {
 CarriedRuns find_carried_runs(const CellComplex& complex, const FaceWeights& weights,
                               const std::vector<std::uint8_t>& label) {
   Loads loads = find_loads(complex, weights, label);
-  for (std::vector<Load>& layer : loads) {
+  tbb::parallel_for(std::size_t{0}, loads.size(), [&](std::size_t k) {
+    std::vector<Load>& layer = loads[k];
     std::vector<std::size_t> order(layer.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),
@@ -167,7 +177,7 @@ CarriedRuns find_carried_runs(const CellComplex& complex, const FaceWeights& wei
         longer.push_back(&layer[i]);
       }
     }
-  }
+  });
   CarriedRuns carried(complex.lines.size());
   for (std::size_t i = 0; i < carried.size(); ++i) {
     choose_runs(loads, i);
