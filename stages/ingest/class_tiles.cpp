@@ -57,7 +57,8 @@ class FinishedTiles {
 /// What one thread needs to class tiles.
 struct Workshop {
   explicit Workshop(const IngestParams& params) : finder(params) {}
-  TilePoints points;
+  TilePoints loaded;
+  TileRuns runs;
   TileGrid grid;
   SurfaceFinder finder;
 };
@@ -86,8 +87,8 @@ TilePlace place_of(const TiledScan& scan, const KeptTile& tile) {
 
 void class_tile(const TiledScan& scan, const KeptTile& tile, const UnitScale& scale, Workshop& workshop,
                 FinishedTile& finished) {
-  scan.store->gather(tile.tile, workshop.points);
-  workshop.grid.build(workshop.points, place_of(scan, tile), scale);
+  scan.store->gather(tile.tile, workshop.loaded, workshop.runs);
+  workshop.grid.build(workshop.runs, place_of(scan, tile), scale);
   const std::vector<VoxelSurface>& surfaces = workshop.finder.find(workshop.grid, scale, finished.estimates);
   const bool normals = scan.store->has_hints();
   if (normals) {

@@ -94,7 +94,7 @@ void LargeTile::sort_band(const Band& band) {
       }
     }
   }
-  grid_.sort_columns(points_, band.columns, place_, scale_);
+  grid_.sort_columns({run_of(points_)}, band.columns, place_, scale_);
 }
 
 bool LargeTile::find_surfaces(SurfaceEstimates& estimates) {

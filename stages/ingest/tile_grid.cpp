@@ -2,6 +2,7 @@
 #include "stages/ingest/tile_grid.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace roomcut {
 
@@ -37,16 +38,21 @@ void TileGrid::begin(const TilePlace& place, float lowest_z, const UnitScale& sc
   levels_[0].begin.reserve(std::size_t{kColumns} * kColumns + 1);
 }
 
-void TileGrid::find_keys(const TilePoints& points, const TilePlace& place, const UnitScale& scale) {
+void TileGrid::find_keys(const TileRuns& runs, const TilePlace& place, const UnitScale& scale) {
   const bool all =
       std::all_of(place.layers.begin(), place.layers.end(), [](auto l) { return l == kAllLayers; });
-  column_.resize(points.size());
-  height_.resize(points.size());
+  std::size_t total = 0;
+  for (const TileRun& run : runs) {
+    total += run.points;
+  }
+  column_.resize(total);
+  height_.resize(total);
   columns_begin_.assign(std::size_t{kColumns} * kColumns + 1, 0);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::int32_t rx = scale.units(points.x[i]) - corner_[0];
-    const std::int32_t ry = scale.units(points.y[i]) - corner_[1];
-    const std::int32_t uz = scale.units(points.z[i]);
+  std::size_t i = 0;
+  const auto find_key = [&](float x, float y, float z) {
+    const std::int32_t rx = scale.units(x) - corner_[0];
+    const std::int32_t ry = scale.units(y) - corner_[1];
+    const std::int32_t uz = scale.units(z);
     column_[i] = static_cast<std::uint16_t>((ry >> kVoxelBits) * kColumns + (rx >> kVoxelBits));
     height_[i] = static_cast<std::uint16_t>((uz - corner_[2]) >> kVoxelBits);
     if (!all) {
@@ -54,23 +60,30 @@ void TileGrid::find_keys(const TilePoints& points, const TilePlace& place, const
       const auto beside = static_cast<std::size_t>(side(ry) + 1) * 3 + static_cast<std::size_t>(side(rx) + 1);
       if ((place.layers[beside] >> layer & 1) == 0) {
         column_[i] = kDropped;
-        continue;
+        return;
       }
     }
     ++columns_begin_[column_[i]];
+  };
+  for (const TileRun& run : runs) {
+    for (std::size_t k = 0; k < run.points; ++k, ++i) {
+      find_key(run.x[k], run.y[k], run.z[k]);
+    }
   }
   to_begins(columns_begin_);
 }
 
 /// A counting sort by column, and then in each column, within the cache, by height: one copy of the tile.
 /// Afterwards columns_begin_ holds the ends.
-void TileGrid::sort_keyed(const TilePoints& points) {
+void TileGrid::sort_keyed(const TileRuns& runs) {
   sorted_.resize(columns_begin_.back());
-  const bool hints = !points.hint.empty();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (column_[i] != kDropped) {
-      sorted_[columns_begin_[column_[i]]++] = {points.x[i], points.y[i], points.z[i],
-                                               hints ? points.hint[i] : std::uint16_t{0}, height_[i]};
+  std::size_t i = 0;
+  for (const TileRun& run : runs) {
+    for (std::size_t k = 0; k < run.points; ++k, ++i) {
+      if (column_[i] != kDropped) {
+        sorted_[columns_begin_[column_[i]]++] = {
+            run.x[k], run.y[k], run.z[k], run.hint != nullptr ? run.hint[k] : std::uint16_t{0}, height_[i]};
+      }
     }
   }
   std::size_t first = 0;
@@ -134,11 +147,11 @@ void TileGrid::sum_moments(const UnitScale& scale) {
   }
 }
 
-void TileGrid::sort_columns(const TilePoints& points, const TileColumns& columns, const TilePlace& place,
+void TileGrid::sort_columns(const TileRuns& runs, const TileColumns& columns, const TilePlace& place,
                             const UnitScale& scale) {
   columns_ = columns;
-  find_keys(points, place, scale);
-  sort_keyed(points);
+  find_keys(runs, place, scale);
+  sort_keyed(runs);
 }
 
 void TileGrid::finish() {
@@ -148,9 +161,13 @@ void TileGrid::finish() {
   }
 }
 
-void TileGrid::build(const TilePoints& points, const TilePlace& place, const UnitScale& scale) {
-  begin(place, *std::min_element(points.z.begin(), points.z.end()), scale);
-  sort_columns(points, {}, place, scale);
+void TileGrid::build(const TileRuns& runs, const TilePlace& place, const UnitScale& scale) {
+  float lowest_z = std::numeric_limits<float>::max();
+  for (const TileRun& run : runs) {
+    lowest_z = std::min(lowest_z, *std::min_element(run.z, run.z + run.points));
+  }
+  begin(place, lowest_z, scale);
+  sort_columns(runs, {}, place, scale);
   levels_[0].reserve(count_voxels());
   sum_moments(scale);
   finish();

@@ -30,12 +30,12 @@ class TileGrid {
   };
 
   /// Sorts by (column, height); points of one voxel keep file order. Time linear in the points.
-  void build(const TilePoints& points, const TilePlace& place, const UnitScale& scale);
+  void build(const TileRuns& runs, const TilePlace& place, const UnitScale& scale);
 
   /// The same in bands: begin(), from the first without a gap sort_columns() and sum_moments(), finish().
   /// Afterwards bands may be sorted again. `lowest_z` [m] is that of all points.
   void begin(const TilePlace& place, float lowest_z, const UnitScale& scale);
-  void sort_columns(const TilePoints& points, const TileColumns& columns, const TilePlace& place,
+  void sort_columns(const TileRuns& runs, const TileColumns& columns, const TilePlace& place,
                     const UnitScale& scale);
   void sum_moments(const UnitScale& scale);
   void finish();
@@ -49,8 +49,8 @@ class TileGrid {
   std::array<std::uint32_t, 3> centre(int level, int ix, int iy, std::uint16_t z) const;
 
  private:
-  void find_keys(const TilePoints& points, const TilePlace& place, const UnitScale& scale);
-  void sort_keyed(const TilePoints& points);
+  void find_keys(const TileRuns& runs, const TilePlace& place, const UnitScale& scale);
+  void sort_keyed(const TileRuns& runs);
   void sort_column(std::size_t first, std::size_t last);
   /// Of the sorted points: room for as many voxels as points, which fresh tiles would ask for, is three times
   /// what is needed.

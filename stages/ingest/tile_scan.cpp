@@ -138,16 +138,15 @@ void check_size(const TiledScan& scan, const ScanSettings& settings) {
     return;
   }
   std::array<float, 6> box{1e9F, -1e9F, 1e9F, -1e9F, 1e9F, -1e9F};
-  TilePoints points;
   for (const KeptTile& tile : scan.tiles) {
-    scan.store->gather(tile.tile, points);
-    const std::array<const std::vector<float>*, 3> axes{&points.x, &points.y, &points.z};
-    for (std::size_t k = 0; k < 3; ++k) {
-      for (const float value : *axes[k]) {
-        box[2 * k] = std::min(box[2 * k], value);
-        box[2 * k + 1] = std::max(box[2 * k + 1], value);
+    scan.store->for_runs(tile.tile, [&](const TileRun& run) {
+      const std::array<const float*, 3> axes{run.x, run.y, run.z};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto [low, high] = std::minmax_element(axes[k], axes[k] + run.points);
+        box[2 * k] = std::min(box[2 * k], *low);
+        box[2 * k + 1] = std::max(box[2 * k + 1], *high);
       }
-    }
+    });
   }
   const double extent = std::max({box[1] - box[0], box[3] - box[2], box[5] - box[4]});
   if (extent < kSmallest_m) {

@@ -17,13 +17,14 @@ std::int8_t beside(std::int32_t units_in_tile) {
 }  // namespace
 
 TileSorter::TileSorter(const ScanFrame& frame, const UnitScale& scale, const IngestParams& params)
-    : frame_(frame),
-      scale_(scale),
-      params_(params),
-      slot_of_tile_(std::size_t{kWindowTiles} * kWindowTiles, 0) {}
+    : frame_(frame), scale_(scale), params_(params), slot_of_tile_(kWindowTiles) {}
 
 std::uint32_t TileSorter::slot_of(std::uint32_t tile) {
-  std::uint32_t& slot = slot_of_tile_[tile];
+  std::vector<std::uint32_t>& row = slot_of_tile_[tile / kWindowTiles];
+  if (row.empty()) {
+    row.assign(kWindowTiles, 0);
+  }
+  std::uint32_t& slot = row[tile % kWindowTiles];
   if (slot == 0) {
     slots_.push_back({tile, 0, {}});
     slot = static_cast<std::uint32_t>(slots_.size());
@@ -127,7 +128,7 @@ void TileSorter::scatter(const LocalPoints& local) {
 
 void TileSorter::clear() {
   for (const Slot& slot : slots_) {
-    slot_of_tile_[slot.tile] = 0;
+    slot_of_tile_[slot.tile / kWindowTiles][slot.tile % kWindowTiles] = 0;
   }
   slots_.clear();
 }

@@ -57,22 +57,30 @@ void TileStore::for_runs(std::uint32_t tile, const VisitRun& visit) const {
   }
 }
 
-void TileStore::gather(std::uint32_t tile, TilePoints& points) const {
+void TileStore::gather(std::uint32_t tile, TilePoints& loaded, TileRuns& runs) const {
+  runs.clear();
   std::size_t total = 0;
+  bool in_memory = true;
   for (auto run = first_run(tile); run != runs_.end() && run->tile == tile; ++run) {
     total += run->points;
+    in_memory = in_memory && blocks_[run->block].bytes != nullptr;
   }
-  points.resize(total, hints_);
+  if (in_memory) {
+    for_runs(tile, [&](const TileRun& run) { runs.push_back(run); });
+    return;
+  }
+  loaded.resize(total, hints_);
   std::size_t at = 0;
   for_runs(tile, [&](const TileRun& run) {
-    std::memcpy(points.x.data() + at, run.x, run.points * sizeof(float));
-    std::memcpy(points.y.data() + at, run.y, run.points * sizeof(float));
-    std::memcpy(points.z.data() + at, run.z, run.points * sizeof(float));
+    std::memcpy(loaded.x.data() + at, run.x, run.points * sizeof(float));
+    std::memcpy(loaded.y.data() + at, run.y, run.points * sizeof(float));
+    std::memcpy(loaded.z.data() + at, run.z, run.points * sizeof(float));
     if (hints_) {
-      std::memcpy(points.hint.data() + at, run.hint, run.points * sizeof(std::uint16_t));
+      std::memcpy(loaded.hint.data() + at, run.hint, run.points * sizeof(std::uint16_t));
     }
     at += run.points;
   });
+  runs.push_back(run_of(loaded));
 }
 
 }  // namespace roomcut

@@ -36,6 +36,14 @@ struct TileRun {
   std::size_t points;
 };
 
+/// All points of a tile and its halo, run after run.
+using TileRuns = std::vector<TileRun>;
+
+inline TileRun run_of(const TilePoints& points) {
+  return {points.x.data(), points.y.data(), points.z.data(),
+          points.hint.empty() ? nullptr : points.hint.data(), points.size()};
+}
+
 /// Points of one block sorted by tile: the unit that is held in memory or written to the scratch file.
 class SortedBlock {
  public:
@@ -85,7 +93,8 @@ class TileSorter {
   const ScanFrame& frame_;
   const UnitScale& scale_;
   const IngestParams& params_;
-  std::vector<std::uint32_t> slot_of_tile_;  ///< slot + 1; 0 = not seen in this block
+  /// Slot + 1 by row and column of the tiles, 0 = not seen in this block; a row has memory once it was seen.
+  std::vector<std::vector<std::uint32_t>> slot_of_tile_;
   std::vector<Slot> slots_;
   std::vector<Place> places_;
   std::vector<Cursor> cursors_;
@@ -106,8 +115,8 @@ class TileStore {
   using VisitRun = std::function<void(const TileRun&)>;
   /// Calls visit(run) for the points of a tile and its halo, in file order. Thread-safe, like gather().
   void for_runs(std::uint32_t tile, const VisitRun& visit) const;
-  /// All of them.
-  void gather(std::uint32_t tile, TilePoints& points) const;
+  /// All of them: where they lie, or read from the scratch file into `loaded`.
+  void gather(std::uint32_t tile, TilePoints& loaded, TileRuns& runs) const;
   const std::filesystem::path& scratch_folder() const { return scratch_.folder(); }
   bool has_hints() const { return hints_; }
   std::uint64_t spilled_bytes() const { return file_end_; }

@@ -49,8 +49,8 @@ std::map<Key, std::uint32_t> counts_of(const VoxelLevel& level) {
 class VoxelLevels : public ::testing::Test {
  protected:
   VoxelLevels() {
-    grid_.build(points_, TilePlace{2, -3, -32, {kAll, kAll, kAll, kAll, kAll, kAll, kAll, kAll, kAll}},
-                scale_);
+    grid_.build({run_of(points_)},
+                TilePlace{2, -3, -32, {kAll, kAll, kAll, kAll, kAll, kAll, kAll, kAll, kAll}}, scale_);
   }
   UnitScale scale_{0.05};
   TilePoints points_ = random_points(20'000);
@@ -113,7 +113,7 @@ TEST_F(VoxelLevels, count_neighbourhoods_as_the_slow_way_does) {
 TEST_F(VoxelLevels, leave_out_the_layers_that_are_not_kept) {
   TilePlace place{2, -3, -32, {}};
   place.layers[4] = std::uint64_t{1} << 32;  // only heights 0 … 6.4 m of the tile itself
-  grid_.build(points_, place, scale_);
+  grid_.build({run_of(points_)}, place, scale_);
   std::size_t expected = 0;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const std::int32_t tx = scale_.units(points_.x[i]) >> 17;
