@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <numbers>
 
 namespace roomcut {
@@ -19,83 +18,7 @@ constexpr double kTypicalBin_m = 0.1;
 constexpr double kEdge_m =
     0.10;  ///< points without a plane this near a level belong to the edge of floor or ceiling
 
-/// Whether the strip of `half` around the segment can meet the box.
-bool strip_meets_box(const Line2& line, double t0, double t1, double half, const Vec2& low,
-                     const Vec2& high) {
-  const Vec2 centre = 0.5 * (low + high);
-  const Vec2 reach = 0.5 * (high - low);
-  const Vec2 n = line.normal().cwiseAbs();
-  const Vec2 u = line.direction().cwiseAbs();
-  const double t = line.along(centre);
-  return std::abs(line.distance(centre)) <= n.dot(reach) + half && t + u.dot(reach) >= t0 &&
-         t - u.dot(reach) <= t1;
-}
-
 }  // namespace
-
-/// The lines near one tile, with what the inner loop needs of them.
-struct LineObserver::Near {
-  const Track* track;
-  const LineFaces* faces;
-  Vec2 normal, direction;
-};
-
-/// Which lines pass near each block of a tile: a point then asks a few instead of all that cross the tile.
-class LineObserver::Neighbourhood {
- public:
-  Neighbourhood(const CloudTile& tile, const std::vector<LineFaces>& lines, const std::vector<Track>& tracks,
-                double band_m) {
-    if (tile.size() == 0) {
-      return;
-    }
-    const auto [x0, x1] = std::minmax_element(tile.x.begin(), tile.x.end());
-    const auto [y0, y1] = std::minmax_element(tile.y.begin(), tile.y.end());
-    low_ = Vec2(*x0, *y0);
-    columns_ = static_cast<std::size_t>((*x1 - *x0) / kBlock_m) + 1;
-    const std::size_t rows = static_cast<std::size_t>((*y1 - *y0) / kBlock_m) + 1;
-    std::vector<Near> crossing;
-    for (const Track& track : tracks) {
-      const Line2& line = lines[track.line].line;
-      crossing.push_back({&track, &lines[track.line], line.normal(), line.direction()});
-    }
-    const auto keep_near = [&](const Vec2& low, const Vec2& high, const std::vector<Near>& from,
-                               std::vector<Near>& to) {
-      std::copy_if(from.begin(), from.end(), std::back_inserter(to), [&](const Near& near) {
-        return strip_meets_box(near.faces->line, near.faces->t0, near.faces->t1, band_m, low, high);
-      });
-    };
-    std::vector<Near> of_tile;
-    keep_near(low_, Vec2(*x1, *y1), crossing, of_tile);
-    std::vector<Near> of_row;
-    const Vec2 rounding = Vec2::Constant(1e-6);
-    for (std::size_t row = 0; row < rows; ++row) {
-      const Vec2 corner = low_ + Vec2(0, static_cast<double>(row) * kBlock_m);
-      of_row.clear();
-      keep_near(corner - rounding, Vec2(*x1, corner.y() + kBlock_m) + rounding, of_tile, of_row);
-      for (std::size_t column = 0; column < columns_; ++column) {
-        const Vec2 low = corner + Vec2(static_cast<double>(column) * kBlock_m, 0);
-        keep_near(low - rounding, low + Vec2::Constant(kBlock_m) + rounding, of_row, near_);
-        end_.push_back(near_.size());
-      }
-    }
-  }
-
-  bool empty() const { return near_.empty(); }
-  std::span<const Near> near(float x, float y) const {
-    const auto column = static_cast<std::size_t>((x - low_.x()) / kBlock_m);
-    const auto row = static_cast<std::size_t>((y - low_.y()) / kBlock_m);
-    const std::size_t block = row * columns_ + column;
-    const std::size_t first = block == 0 ? 0 : end_[block - 1];
-    return {near_.data() + first, end_[block] - first};
-  }
-
- private:
-  static constexpr double kBlock_m = 0.5;
-  Vec2 low_{0, 0};
-  std::size_t columns_ = 0;
-  std::vector<Near> near_;        ///< block by block, ascending
-  std::vector<std::size_t> end_;  ///< of each block's in near_
-};
 
 /// A point's place on the line that it belongs to.
 struct LineObserver::Hit {
@@ -121,6 +44,10 @@ LineObserver::LineObserver(const std::vector<LineFaces>& lines, const std::vecto
       tracks_.push_back(make_track(i, patches));
     }
   }
+  for (const LineTrack& track : tracks_) {
+    const Line2& line = lines[track.line].line;
+    all_lines_.push_back({&track, &lines[track.line], line.normal(), line.direction()});
+  }
   track_of_.assign(lines.size(), tracks_.size());
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
     track_of_[tracks_[k].line] = k;
@@ -130,9 +57,9 @@ LineObserver::LineObserver(const std::vector<LineFaces>& lines, const std::vecto
   along_ = std::make_unique<std::atomic<std::int64_t>[]>(static_cast<std::size_t>(patches));
 }
 
-LineObserver::Track LineObserver::make_track(std::size_t line, std::int32_t& patches) const {
+LineTrack LineObserver::make_track(std::size_t line, std::int32_t& patches) const {
   const LineFaces& faces = lines_[line];
-  Track track{line, std::vector<std::int32_t>(faces.bins * zones_, -1), {}};
+  LineTrack track{line, std::vector<std::int32_t>(faces.bins * zones_, -1), {}};
   for (std::size_t bin = 0; bin < faces.bins; ++bin) {
     for (std::size_t layer = 0; layer < faces.layers; ++layer) {
       if (faces.side_at(bin, layer) != 0) {
@@ -160,7 +87,7 @@ std::size_t LineObserver::zone_of(double z, std::size_t layer) const {
 }
 
 LineObserver::Hit LineObserver::find_line(const CloudTile& tile, std::size_t i,
-                                          std::span<const Near> near) const {
+                                          std::span<const NearLine> near) const {
   Hit hit;
   const auto surface = static_cast<SurfaceClass>(tile.surface[i]);
   const double z = tile.z[i];
@@ -175,7 +102,7 @@ LineObserver::Hit LineObserver::find_line(const CloudTile& tile, std::size_t i,
   const auto layer = static_cast<std::size_t>(above - levels_.begin()) - 1;
   const Vec2 p(tile.x[i], tile.y[i]);
   double nearest = band_m_;
-  for (const Near& candidate : near) {
+  for (const NearLine& candidate : near) {
     const LineFaces& faces = *candidate.faces;
     const double e = candidate.normal.dot(p) - faces.line.d;
     if (std::abs(e) >= nearest || (upright && candidate.track->fits[tile.azimuth[i]] == 0)) {
@@ -196,7 +123,7 @@ LineObserver::Hit LineObserver::find_line(const CloudTile& tile, std::size_t i,
 }
 
 void LineObserver::add(const CloudTile& tile) {
-  const Neighbourhood lines(tile, lines_, tracks_, band_m_);
+  const LineNeighbourhood lines(tile, all_lines_, band_m_);
   if (lines.empty()) {
     return;
   }
@@ -223,7 +150,7 @@ std::vector<Observation> LineObserver::observations(std::size_t i) const {
   if (track_of_[i] == tracks_.size()) {
     return result;
   }
-  const Track& track = tracks_[track_of_[i]];
+  const LineTrack& track = tracks_[track_of_[i]];
   const LineFaces& faces = lines_[i];
   std::array<std::uint64_t, OffsetHistogram::kBins> histogram{};
   std::size_t layer = 0;

@@ -9,6 +9,7 @@
 
 #include "common/cloud/cloud.h"
 #include "stages/refine_lines/line_faces.h"
+#include "stages/refine_lines/line_neighbourhood.h"
 
 namespace roomcut {
 
@@ -73,24 +74,18 @@ class LineObserver {
   std::uint64_t points() const { return points_.load(); }
 
  private:
-  struct Track {
-    std::size_t line;                 ///< index into lines
-    std::vector<std::int32_t> patch;  ///< bins × zones; index among all patches, -1 = no surface
-    std::vector<std::uint8_t> fits;   ///< per azimuth step
-  };
-  struct Near;
   struct Hit;
-  class Neighbourhood;
-  Track make_track(std::size_t line, std::int32_t& patches) const;
+  LineTrack make_track(std::size_t line, std::int32_t& patches) const;
   std::size_t zone_of(double z, std::size_t layer) const;
-  Hit find_line(const CloudTile& tile, std::size_t i, std::span<const Near> near) const;
+  Hit find_line(const CloudTile& tile, std::size_t i, std::span<const NearLine> near) const;
 
   const std::vector<LineFaces>& lines_;
   const std::vector<double>& levels_;
   double band_m_, noise_m_;
   std::vector<std::size_t> first_zone_;  ///< per layer, and one behind the last
   std::size_t zones_ = 1;
-  std::vector<Track> tracks_;
+  std::vector<LineTrack> tracks_;
+  std::vector<NearLine> all_lines_;    ///< of the tracks
   std::vector<std::size_t> track_of_;  ///< per line, tracks_.size() when inactive
   std::unique_ptr<std::atomic<std::uint64_t>[]> histograms_;
   std::unique_ptr<std::atomic<std::int64_t>[]>
