@@ -2,7 +2,7 @@
 # The rules of the pipeline. stages/pipeline.sh runs this file inside a work folder, so that all names here are relative and have
 # no spaces, whatever the folder is called. It has brought inputs/ and params/ up to date: those files change only when
 # their content does. From the environment: ROOMCUT_BIN, _SCAN, _UP,
-# _UNIT, _THREADS, _VERBOSITY, _STATUS, _PROGRESS; not SCAN itself, which Make would hand on as the user wrote it, relative to elsewhere.
+# _UNIT, _THREADS, _VERBOSITY, _STATUS, _PROGRESS, _INGEST_HEAP; not SCAN itself, which Make would hand on as the user wrote it, relative to elsewhere.
 #
 # How a stage runs again only when it must:
 #   params/<stage>.json  resolved parameters and the stage's revision; written anew only when they differ
@@ -37,9 +37,12 @@ ifdef ROOMCUT_STATUS
 run_stage = @echo "$(1) $(filter-out FORCE,$?) $(missing_$(1):%=missing:%)" >> stamps/.status
 else
 # With ROOMCUT_PROGRESS every stage is announced: "@stage 7 15 raycast".
-run_stage = @$(if $(ROOMCUT_PROGRESS),echo "@stage $(position_$(1)) $(words $(names)) $(1)"; )"$$ROOMCUT_BIN/$(2)" --work . --params params/$(2).json \
+run_stage = @$(if $(ROOMCUT_PROGRESS),echo "@stage $(position_$(1)) $(words $(names)) $(1)"; )$(environment_$(1))"$$ROOMCUT_BIN/$(2)" --work . --params params/$(2).json \
 	--log logs/$(1).json --stamp stamps/$(1) --missing "$(missing_$(1))" $(ROOMCUT_THREADS:%=--threads %) $(ROOMCUT_VERBOSITY) $(4)
 endif
+
+# How memory is taken (pipeline.sh); ingest has its own way.
+environment_ingest := GLIBC_TUNABLES="$$ROOMCUT_INGEST_HEAP" # the space belongs to it
 
 lines_30 := 30_detect_lines/wall_lines.geojson
 lines_40 := 40_accept_lines/wall_lines.geojson
