@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <tbb/parallel_sort.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "common/random/counter_random.h"
@@ -57,10 +56,11 @@ class CellTable {
     return entries_[last_].sum;
   }
 
-  /// Hands over the entries, in the order of their first use, and empties the table.
+  /// Hands over the entries, in the order of their first use and without room for more, and empties the
+  /// table.
   std::vector<Entry> take() {
-    std::vector<Entry> taken;
-    taken.swap(entries_);
+    std::vector<Entry> taken(entries_.begin(), entries_.end());
+    entries_.clear();
     slots_.assign(slots_.size(), 0);
     last_ = 0;
     return taken;
@@ -87,30 +87,5 @@ class CellTable {
   std::vector<std::uint32_t> slots_;  ///< entry index + 1; 0 = free; size is a power of two
   std::size_t last_ = 0;
 };
-
-/// Joins the entries of all tiles: sorted by `less`, cells that straddle tiles added up. Order-free.
-template <class Sum, class Less>
-std::vector<CellEntry<Sum>> merged(std::vector<std::vector<CellEntry<Sum>>> parts, Less less) {
-  std::vector<CellEntry<Sum>> all;
-  std::size_t total = 0;
-  for (const auto& part : parts) total += part.size();
-  all.reserve(total);
-  for (auto& part : parts) {
-    all.insert(all.end(), part.begin(), part.end());
-    std::vector<CellEntry<Sum>>().swap(part);
-  }
-  tbb::parallel_sort(all.begin(), all.end(),
-                     [less](const auto& a, const auto& b) { return less(a.key, b.key); });
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (kept > 0 && all[kept - 1].key == all[i].key) {
-      all[kept - 1].sum += all[i].sum;
-    } else {
-      all[kept++] = all[i];
-    }
-  }
-  all.resize(kept);
-  return all;
-}
 
 }  // namespace roomcut

@@ -6,9 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 
-#include "stages/slice/cell_table.h"
+#include "stages/slice/cell_parts.h"
 #include "stages/slice/fixed_point.h"
 
 namespace roomcut {
@@ -72,17 +71,17 @@ VerticalHistogram histogram(double z0, double bin_m, const tbb::enumerable_threa
   return result;
 }
 
-std::vector<UprightBlock> to_blocks(std::vector<std::vector<CellEntry<AreaSum>>> parts) {
+std::vector<UprightBlock> to_blocks(const std::vector<CellEntry<AreaSum>>& entries) {
   std::vector<UprightBlock> blocks;
-  for (const auto& [key, sum] : merged(std::move(parts), by_column)) {
+  blocks.reserve(entries.size());
+  for (const auto& [key, sum] : entries) {
     blocks.push_back({key.ix, key.iy, key.iz, static_cast<double>(sum.area) * kAreaUnit,
                       static_cast<double>(sum.sloped) * kAreaUnit});
   }
   return blocks;
 }
 
-std::vector<SurfacePatch> to_patches(std::vector<std::vector<CellEntry<PatchSum>>> parts) {
-  const std::vector<CellEntry<PatchSum>> entries = merged(std::move(parts), by_column);
+std::vector<SurfacePatch> to_patches(const std::vector<CellEntry<PatchSum>>& entries) {
   std::vector<SurfacePatch> patches;
   patches.reserve(entries.size());
   for (const auto& [key, sum] : entries) {
@@ -104,11 +103,10 @@ HeightSurvey survey_heights(const CloudHeader& header, const TileSource& tiles, 
   tbb::enumerable_thread_specific<Sums> threads([bins] {
     return Sums{std::vector<std::int64_t>(bins, 0), {}, {}};
   });
-  std::vector<std::vector<CellEntry<PatchSum>>> patches;
-  std::vector<std::vector<CellEntry<AreaSum>>> upright;
-  std::mutex mutex;
+  CellParts<PatchSum, decltype(by_column)> patches(by_column);
+  CellParts<AreaSum, decltype(by_column)> upright(by_column);
 
-  tiles([&](std::size_t, const CloudTile& tile) {
+  tiles([&](std::size_t index, const CloudTile& tile) {
     Sums& sums = threads.local();
     for (std::size_t i = 0; i < tile.size(); ++i) {
       const auto surface = static_cast<SurfaceClass>(tile.surface[i]);
@@ -121,17 +119,14 @@ HeightSurvey survey_heights(const CloudHeader& header, const TileSource& tiles, 
         add_upright(sums.upright, tile, i);
       }
     }
-    std::vector<CellEntry<PatchSum>> tile_patches = sums.patches.take();
-    std::vector<CellEntry<AreaSum>> tile_upright = sums.upright.take();
-    const std::lock_guard lock(mutex);
-    patches.push_back(std::move(tile_patches));
-    upright.push_back(std::move(tile_upright));
+    patches.add(index, sums.patches.take());
+    upright.add(index, sums.upright.take());
   });
 
   HeightSurvey survey;
   survey.raster_m = raster_m;
-  tbb::parallel_invoke([&] { survey.patches = to_patches(std::move(patches)); },
-                       [&] { survey.upright = to_blocks(std::move(upright)); });
+  tbb::parallel_invoke([&] { survey.patches = to_patches(patches.take()); },
+                       [&] { survey.upright = to_blocks(upright.take()); });
   survey.horizontal = histogram(z0, bin_m, threads, bins);
   return survey;
 }

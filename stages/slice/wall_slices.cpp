@@ -8,9 +8,8 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <mutex>
 
-#include "stages/slice/cell_table.h"
+#include "stages/slice/cell_parts.h"
 #include "stages/slice/fixed_point.h"
 
 namespace roomcut {
@@ -165,17 +164,14 @@ std::vector<EvidenceRange> evidence_ranges(const std::vector<Level>& levels, dou
 std::vector<OccupancyGrid> occupy_wall_slices(const TileSource& tiles,
                                               const std::vector<EvidenceRange>& ranges, double tau_m) {
   tbb::enumerable_thread_specific<CellTable<EvidenceSum>> tables;
-  std::vector<std::vector<CellEntry<EvidenceSum>>> parts;
-  std::mutex parts_mutex;
-  tiles([&](std::size_t, const CloudTile& tile) {
+  CellParts<EvidenceSum, decltype(by_slice)> parts(by_slice);
+  tiles([&](std::size_t index, const CloudTile& tile) {
     CellTable<EvidenceSum>& table = tables.local();
     add_tile(tile, ranges, tau_m, table);
-    std::vector<CellEntry<EvidenceSum>> part = table.take();
-    const std::lock_guard lock(parts_mutex);
-    parts.push_back(std::move(part));
+    parts.add(index, table.take());
   });
   std::vector<OccupancyGrid> grids(ranges.size());
-  for (const auto& entry : merged(std::move(parts), by_slice)) {
+  for (const auto& entry : parts.take()) {
     const auto slice = static_cast<std::size_t>(entry.key.iz);
     append_cell(entry, ranges[slice], tau_m, grids[slice]);
   }

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "stages/slice/cell_table.h"
+
+namespace roomcut {
+
+/// Adds up the entries of equal cells, which must be neighbours.
+template <class Sum>
+void add_up(std::vector<CellEntry<Sum>>& sorted) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    if (kept > 0 && sorted[kept - 1].key == sorted[i].key) {
+      sorted[kept - 1].sum += sorted[i].sum;
+    } else {
+      sorted[kept++] = sorted[i];
+    }
+  }
+  sorted.resize(kept);
+}
+
+/// The entries of all tiles, which come in parts. Dense scans have a part for every row of cells, and each
+/// cell in two or three of them: those of a tile are added up before they are many, so that memory follows
+/// the cells, not the points. Order-free.
+template <class Sum, class Less>
+class CellParts {
+ public:
+  using Entries = std::vector<CellEntry<Sum>>;
+  explicit CellParts(Less less) : less_(less) {}
+
+  /// Takes over a part of a tile. Thread-safe.
+  void add(std::size_t tile, Entries&& part) {
+    const std::scoped_lock lock(mutex_);
+    Tile& own = tiles_[tile];
+    if (own.entries.empty()) {
+      own.entries = std::move(part);
+      return;
+    }
+    own.entries.insert(own.entries.end(), part.begin(), part.end());
+    if (own.entries.size() > 2 * own.added_up + kFew) {
+      // Not in parallel: a thread that waits may take up the next part, and wait for the lock that it holds.
+      std::sort(own.entries.begin(), own.entries.end(), before());
+      add_up(own.entries);
+      own.entries.shrink_to_fit();
+      own.added_up = own.entries.size();
+    }
+  }
+
+  /// Entries held now.
+  std::size_t held() const {
+    std::size_t total = 0;
+    for (const auto& [number, tile] : tiles_) total += tile.entries.size();
+    return total;
+  }
+
+  /// All cells, sorted; those that straddle tiles added up. Empties this.
+  Entries take() {
+    Entries all;
+    all.reserve(held());
+    for (auto& [number, tile] : tiles_) {
+      all.insert(all.end(), tile.entries.begin(), tile.entries.end());
+      Entries().swap(tile.entries);
+    }
+    tiles_.clear();
+    tbb::parallel_sort(all.begin(), all.end(), before());
+    add_up(all);
+    return all;
+  }
+
+ private:
+  static constexpr std::size_t kFew = 8192;
+  struct Tile {
+    Entries entries;
+    std::size_t added_up = 0;  ///< how many of them there were when they were added up last
+  };
+  auto before() const {
+    return [less = less_](const CellEntry<Sum>& a, const CellEntry<Sum>& b) { return less(a.key, b.key); };
+  }
+
+  Less less_;
+  std::mutex mutex_;
+  std::map<std::size_t, Tile> tiles_;
+};
+
+}  // namespace roomcut
