@@ -41,24 +41,22 @@ class CellParts {
   void add(std::size_t tile, Entries&& part) {
     const std::scoped_lock lock(mutex_);
     Tile& own = tiles_[tile];
-    if (own.entries.empty()) {
-      own.entries = std::move(part);
-      return;
-    }
-    own.entries.insert(own.entries.end(), part.begin(), part.end());
-    if (own.entries.size() > 2 * own.added_up + kFew) {
+    own.held += part.size();
+    own.parts.push_back(std::move(part));
+    if (own.parts.size() > kFewParts && own.held > 2 * own.added_up + kFew) {
+      Entries joined = join(own);
       // Not in parallel: a thread that waits may take up the next part, and wait for the lock that it holds.
-      std::sort(own.entries.begin(), own.entries.end(), before());
-      add_up(own.entries);
-      own.entries.shrink_to_fit();
-      own.added_up = own.entries.size();
+      std::sort(joined.begin(), joined.end(), before());
+      add_up(joined);
+      own.held = own.added_up = joined.size();
+      own.parts.emplace_back(joined.begin(), joined.end());  // a copy without room for more
     }
   }
 
   /// Entries held now.
   std::size_t held() const {
     std::size_t total = 0;
-    for (const auto& [number, tile] : tiles_) total += tile.entries.size();
+    for (const auto& [number, tile] : tiles_) total += tile.held;
     return total;
   }
 
@@ -66,10 +64,7 @@ class CellParts {
   Entries take() {
     Entries all;
     all.reserve(held());
-    for (auto& [number, tile] : tiles_) {
-      all.insert(all.end(), tile.entries.begin(), tile.entries.end());
-      Entries().swap(tile.entries);
-    }
+    for (auto& [number, tile] : tiles_) append(tile, all);
     tiles_.clear();
     tbb::parallel_sort(all.begin(), all.end(), before());
     add_up(all);
@@ -77,11 +72,27 @@ class CellParts {
   }
 
  private:
-  static constexpr std::size_t kFew = 8192;
+  static constexpr std::size_t kFew = 8192;    ///< entries
+  static constexpr std::size_t kFewParts = 8;  ///< as a scan of usual density has at most
   struct Tile {
-    Entries entries;
-    std::size_t added_up = 0;  ///< how many of them there were when they were added up last
+    std::vector<Entries> parts;
+    std::size_t held = 0;
+    std::size_t added_up = 0;  ///< how many there were when they were added up last
   };
+  /// Moves a tile's parts to the end of `all`.
+  static void append(Tile& tile, Entries& all) {
+    for (Entries& part : tile.parts) {
+      all.insert(all.end(), part.begin(), part.end());
+      Entries().swap(part);
+    }
+    tile.parts.clear();
+  }
+  static Entries join(Tile& tile) {
+    Entries joined;
+    joined.reserve(tile.held);
+    append(tile, joined);
+    return joined;
+  }
   auto before() const {
     return [less = less_](const CellEntry<Sum>& a, const CellEntry<Sum>& b) { return less(a.key, b.key); };
   }

@@ -2,7 +2,6 @@
 #include "stages/slice/survey.h"
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cmath>
@@ -125,8 +124,8 @@ HeightSurvey survey_heights(const CloudHeader& header, const TileSource& tiles, 
 
   HeightSurvey survey;
   survey.raster_m = raster_m;
-  tbb::parallel_invoke([&] { survey.patches = to_patches(patches.take()); },
-                       [&] { survey.upright = to_blocks(upright.take()); });
+  survey.patches = to_patches(patches.take());
+  survey.upright = to_blocks(upright.take());
   survey.horizontal = histogram(z0, bin_m, threads, bins);
   return survey;
 }
