@@ -79,6 +79,7 @@ std::vector<double> start_offsets(const LineProblem& problem, const Pose& home) 
     ++bins[std::lround(offsets.back() / kBin_m)];
   }
   std::vector<std::pair<int, long>> fullest;
+  fullest.reserve(bins.size());
   for (const auto& [bin, count] : bins) {
     fullest.emplace_back(-count, bin);
   }

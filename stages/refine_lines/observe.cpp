@@ -15,6 +15,8 @@ constexpr std::uint32_t kFewestPoints = 4;
 constexpr double kPatchPoints = 20;
 constexpr double kLowestZone_m = 0.5;
 constexpr double kTypicalBin_m = 0.1;
+constexpr double kPerMetre = 1e6;  ///< units in which places along a line are summed
+constexpr double kHalf = 0.5;      ///< makes truncation round: what is rounded is never negative
 constexpr double kEdge_m =
     0.10;  ///< points without a plane this near a level belong to the edge of floor or ceiling
 
@@ -139,7 +141,8 @@ void LineObserver::add(const CloudTile& tile) {
     const int bin = std::clamp(static_cast<int>(position), 0, OffsetHistogram::kBins - 1);
     histograms_[patch * OffsetHistogram::kBins + static_cast<std::size_t>(bin)].fetch_add(
         OffsetHistogram::pack(position - bin), std::memory_order_relaxed);
-    along_[patch].fetch_add(static_cast<std::int64_t>(hit.along * 1e6 + 0.5), std::memory_order_relaxed);
+    along_[patch].fetch_add(static_cast<std::int64_t>(hit.along * kPerMetre + kHalf),
+                            std::memory_order_relaxed);
     ++taken;
   }
   points_.fetch_add(taken, std::memory_order_relaxed);

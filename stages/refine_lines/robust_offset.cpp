@@ -63,7 +63,8 @@ double fullest_window(const Bins& bins, double width_m, double noise_m) {
 }  // namespace
 
 std::uint64_t OffsetHistogram::pack(double position_in_bin) {
-  const auto step = static_cast<std::uint64_t>(std::clamp(position_in_bin, 0.0, 1.0) * (kSteps - 1) + 0.5);
+  constexpr double kHalf = 0.5;  // rounds what is never negative
+  const auto step = static_cast<std::uint64_t>(std::clamp(position_in_bin, 0.0, 1.0) * (kSteps - 1) + kHalf);
   return (std::uint64_t{1} << kSumBits) + step;
 }
 

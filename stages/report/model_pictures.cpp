@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <string>
 
@@ -85,7 +86,7 @@ Picture draw_cloud(const std::vector<Vec3>& points, int width_px) {
   const double per_m = (kHeightColours - 1) / std::max(high - low, 1e-9);
   drawing.point_colours.reserve(points.size());
   for (const Vec3& p : points) {
-    drawing.point_colours.push_back(colours[static_cast<std::size_t>((p.z() - low) * per_m + 0.5)]);
+    drawing.point_colours.push_back(colours[static_cast<std::size_t>(std::lround((p.z() - low) * per_m))]);
   }
   View view = slanted(width_px);
   view.smooth = false;

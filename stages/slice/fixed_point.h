@@ -13,7 +13,8 @@ inline std::int32_t floor_to_int(double x) {
 
 /// Nearest whole number of a value >= 0: sums of these do not depend on their order.
 inline std::int64_t to_units(double value, double unit) {
-  return static_cast<std::int64_t>(value * (1 / unit) + 0.5);
+  constexpr double kHalf = 0.5;  // std::lround is a library call
+  return static_cast<std::int64_t>(value * (1 / unit) + kHalf);
 }
 
 }  // namespace roomcut

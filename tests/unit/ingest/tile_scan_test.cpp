@@ -96,6 +96,7 @@ TEST(TileScan, gives_the_same_from_bands_of_a_tile_as_from_the_whole_but_for_the
 
 TEST(TileScan, holds_no_more_points_than_a_band_also_where_a_wall_fills_one_row_of_columns) {
   std::vector<Vec3> wall;
+  wall.reserve(60'000);
   for (int i = 0; i < 60'000; ++i) {  // 6 m along x, 3 m high, all of it in one row of 5 cm
     wall.emplace_back(0.1 + 6.0 * (i % 3001) / 3001, 0.215 + 0.02 * (i % 7) / 7, 3.0 * (i % 997) / 997);
   }
