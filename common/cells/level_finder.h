@@ -36,7 +36,6 @@ class LevelFinder {
     }
     return level;
   }
-  const std::vector<double>& levels() const { return levels_; }
 
  private:
   static constexpr std::size_t kSteps = 1024;

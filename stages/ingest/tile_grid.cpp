@@ -86,10 +86,14 @@ void TileGrid::sort_keyed(const TileRuns& runs) {
       }
     }
   }
+  voxels_ = 0;
   std::size_t first = 0;
   for (std::size_t column = 0; column + 1 < columns_begin_.size(); ++column) {
     const std::size_t last = columns_begin_[column];
     sort_column(first, last);
+    for (std::size_t k = first; k < last; ++k) {  // while the column is in the cache
+      voxels_ += k == first || sorted_[k].height != sorted_[k - 1].height ? 1 : 0;
+    }
     first = last;
   }
 }
@@ -113,17 +117,6 @@ void TileGrid::sort_column(std::size_t first, std::size_t last) {
   for (const Point& point : column_points_) {
     sorted_[first + heights_begin_[static_cast<std::size_t>(point.height - base)]++] = point;
   }
-}
-
-std::size_t TileGrid::count_voxels() const {
-  std::size_t voxels = 0;
-  std::size_t i = 0;
-  for (std::size_t column = 0; column + 1 < columns_begin_.size(); ++column) {
-    for (const std::size_t first = i; i < columns_begin_[column]; ++i) {
-      voxels += i == first || sorted_[i].height != sorted_[i - 1].height ? 1 : 0;
-    }
-  }
-  return voxels;
 }
 
 void TileGrid::sum_moments(const UnitScale& scale) {
@@ -168,7 +161,7 @@ void TileGrid::build(const TileRuns& runs, const TilePlace& place, const UnitSca
   }
   begin(place, lowest_z, scale);
   sort_columns(runs, {}, place, scale);
-  levels_[0].reserve(count_voxels());
+  levels_[0].reserve(voxels_);
   sum_moments(scale);
   finish();
 }

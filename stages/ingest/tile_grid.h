@@ -52,9 +52,6 @@ class TileGrid {
   void find_keys(const TileRuns& runs, const TilePlace& place, const UnitScale& scale);
   void sort_keyed(const TileRuns& runs);
   void sort_column(std::size_t first, std::size_t last);
-  /// Of the sorted points: room for as many voxels as points, which fresh tiles would ask for, is three times
-  /// what is needed.
-  std::size_t count_voxels() const;
 
   std::array<std::int32_t, 3>
       corner_{};  ///< of the halo, local units; the base in height is a coarsest voxel's
@@ -62,6 +59,8 @@ class TileGrid {
   std::vector<std::uint32_t> columns_begin_;
   std::vector<std::uint32_t> heights_begin_;  ///< of one column
   std::vector<Point> column_points_, sorted_;
+  std::size_t voxels_ =
+      0;  ///< of the sorted points: room for one per point would be three times what is needed
   TileColumns columns_;
   std::array<VoxelLevel, fixed_grid::kLevels> levels_;
 };

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cmath>
-#include <deque>
 #include <numbers>
 
 namespace roomcut {
@@ -96,25 +95,18 @@ class ParallelCost : public ceres::SizedCostFunction<1, 2, 1> {
 
 using Block = std::array<double, 2>;
 
-/// What Ceres adds up; it owns none of it.
-struct Terms {
-  std::deque<ObservationsCost> observations;
-  std::deque<PriorCost> priors;
-  std::deque<ParallelCost> parallels;
-};
-
-void add_line(const Adjustment& adjustment, std::size_t i, Terms& terms, ceres::Problem& problem,
-              Block& block, std::vector<double>& angles) {
+void add_line(const Adjustment& adjustment, std::size_t i, ceres::Problem& problem, Block& block,
+              std::vector<double>& angles) {
   const LineProblem& line = adjustment.lines[i];
   problem.AddParameterBlock(block.data(), 2);
-  problem.AddResidualBlock(&terms.priors.emplace_back(unmoved(line), line.prior), nullptr, block.data());
+  problem.AddResidualBlock(new PriorCost(unmoved(line), line.prior), nullptr, block.data());
   if (!line.residuals.empty()) {
-    problem.AddResidualBlock(&terms.observations.emplace_back(line.residuals), nullptr, block.data());
+    problem.AddResidualBlock(new ObservationsCost(line.residuals), nullptr, block.data());
   }
   const int group = adjustment.classes.class_of.empty() ? -1 : adjustment.classes.class_of[i];
   if (group >= 0 && adjustment.regularity_rad > 0) {
-    problem.AddResidualBlock(&terms.parallels.emplace_back(line.line.theta, adjustment.regularity_rad),
-                             nullptr, block.data(), &angles[static_cast<std::size_t>(group)]);
+    problem.AddResidualBlock(new ParallelCost(line.line.theta, adjustment.regularity_rad), nullptr,
+                             block.data(), &angles[static_cast<std::size_t>(group)]);
   }
   if (adjustment.constant[i]) {
     problem.SetParameterBlockConstant(block.data());
@@ -129,13 +121,9 @@ bool adjust(Adjustment& adjustment) {
     blocks.push_back({pose.turn, pose.shift});
   }
   std::vector<double> angles = adjustment.classes.angle;
-  Terms terms;
-  ceres::Problem::Options ownership;
-  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ceres::Problem problem(ownership);
+  ceres::Problem problem;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
-    add_line(adjustment, i, terms, problem, blocks[i], angles);
+    add_line(adjustment, i, problem, blocks[i], angles);
   }
   ceres::Solver::Options options;
   options.num_threads = 1;
