@@ -43,13 +43,8 @@ class CellParts {
     Tile& own = tiles_[tile];
     own.held += part.size();
     own.parts.push_back(std::move(part));
-    if (own.parts.size() > kFewParts && own.held > 2 * own.added_up + kFew) {
-      Entries joined = join(own);
-      // Not in parallel: a thread that waits may take up the next part, and wait for the lock that it holds.
-      std::sort(joined.begin(), joined.end(), before());
-      add_up(joined);
-      own.held = own.added_up = joined.size();
-      own.parts.emplace_back(joined.begin(), joined.end());  // a copy without room for more
+    if (own.parts.size() > kFewParts && 2 * own.held > 3 * own.added_up + kFew) {
+      add_up_tile(own);
     }
   }
 
@@ -62,6 +57,10 @@ class CellParts {
 
   /// All cells, sorted; those that straddle tiles added up. Empties this.
   Entries take() {
+    // First each tile of many parts: the list of all need not hold its cells twice.
+    for (auto& [number, tile] : tiles_) {
+      if (tile.added_up > 0) add_up_tile(tile);
+    }
     Entries all;
     all.reserve(held());
     for (auto& [number, tile] : tiles_) append(tile, all);
@@ -92,6 +91,14 @@ class CellParts {
     joined.reserve(tile.held);
     append(tile, joined);
     return joined;
+  }
+  /// Not in parallel: a thread that waits may take up the next part, and wait for the lock that it holds.
+  void add_up_tile(Tile& tile) const {
+    Entries joined = join(tile);
+    std::sort(joined.begin(), joined.end(), before());
+    add_up(joined);
+    tile.held = tile.added_up = joined.size();
+    tile.parts.emplace_back(joined.begin(), joined.end());  // a copy without room for more
   }
   auto before() const {
     return [less = less_](const CellEntry<Sum>& a, const CellEntry<Sum>& b) { return less(a.key, b.key); };
