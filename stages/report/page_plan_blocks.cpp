@@ -101,7 +101,7 @@ void add_evidence(const std::filesystem::path& path, const CellsFile& cells, Pag
   block.add("wall_implied", file.read<float>("wall/implied"));
   block.add("level_implied", file.read<float>("level/implied"));
   block.facts["evidence"] = Json::array();
-  for (const DatasetInfo& info : list_datasets(path, "cell")) {
+  for (const DatasetInfo& info : list_datasets(file, "cell")) {
     if (!info.type.starts_with('f') || info.shape != h5::Shape{cells.complex.cells()}) {
       continue;
     }
