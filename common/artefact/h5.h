@@ -159,7 +159,7 @@ class H5Reader {
     const h5::Shape actual = checked_shape(path, shape);
     std::size_t count = 1;
     for (const auto n : actual) count *= n;
-    require_type(path, h5::number_name<T>());
+    require_type<T>(path);
     std::vector<T> data(count);
     read_raw(path, data.data(), 0, actual[0]);
     return data;
@@ -167,9 +167,15 @@ class H5Reader {
   /// Rows [first, first+count) of a dataset into `out` (count × inner sizes elements).
   template <class T>
   void read_rows(const std::string& path, std::uint64_t first, std::uint64_t count, T* out) const {
-    require_type(path, h5::number_name<T>());
+    require_type<T>(path);
     read_raw(path, out, first, count);
   }
+  /// Throws kArtefactDamaged unless the dataset holds numbers of type T.
+  template <class T>
+  void require_type(const std::string& path) const {
+    require_type(path, h5::number_name<T>());
+  }
+  void require_type(const std::string& path, const std::string& type) const;
   h5::Shape shape(const std::string& path) const { return checked_shape(path, {}); }
   bool exists(const std::string& path) const;
   /// Where the dataset's bytes begin in the file: contiguous, little-endian, never compressed. Throws
@@ -191,7 +197,6 @@ class H5Reader {
  private:
   struct State;
   h5::Shape checked_shape(const std::string& path, const h5::Shape& expected) const;
-  void require_type(const std::string& path, const std::string& type) const;
   void read_raw(const std::string& path, void* out, std::uint64_t first, std::uint64_t count) const;
   std::unique_ptr<State> state_;
 };

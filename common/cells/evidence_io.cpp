@@ -63,8 +63,8 @@ FaceWeights read_weights(const std::filesystem::path& path, const CellsFile& cel
   weights.level_points = file.read<std::uint32_t>("level/points", {sizes.levels});
   weights.cell_points = file.read<std::uint32_t>("cell/points", {sizes.cells});
   weights.cell_slope = read_share(file, "cell/slope", sizes.cells);
-  const auto stations =
-      read_in_range<double>(file, "stations/xyz", {0, 3}, -limits::kFarthest_m, limits::kFarthest_m);
+  const auto stations = read_in_range<double>(file, "stations/xyz", {0, 3}, -limits::kFarthestOrigin_m,
+                                              limits::kFarthestOrigin_m);
   for (std::size_t i = 0; i < stations.size(); i += 3) {
     weights.stations.emplace_back(stations[i], stations[i + 1], stations[i + 2]);
   }
