@@ -12,7 +12,8 @@ using Paths = std::vector<std::filesystem::path>;
 
 constexpr const char* kUsage =
     "artefact show|digest|bytes FILE …\n"
-    "artefact plan [--scan FILE] [--again STAGE] GOAL … < PIPELINE   artefact status [--scan FILE] < PIPELINE\n"
+    "artefact plan [--scan FILE] [--again STAGE] GOAL … < PIPELINE   artefact status [--scan FILE] < "
+    "PIPELINE\n"
     "artefact verify [--schemas FOLDER] [--scan FILE] STAMP …\n";
 
 void show(const std::filesystem::path& path) {

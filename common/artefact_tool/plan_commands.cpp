@@ -36,7 +36,8 @@ void print_plan(const PlanOptions& options, const std::vector<std::string>& goal
     return stage.stamp == StampState::kUnknown;
   });
   if (unknown) {
-    std::cerr << "note: stamps of an older roomcut, or cut short, do not say what was read: their stages run once more\n";
+    std::cerr << "note: stamps of an older roomcut, or cut short, do not say what was read: their stages run "
+                 "once more\n";
   }
   for (const std::string& note : set_aside(stale)) {
     std::cerr << "note: " << note << "\n";

@@ -17,8 +17,8 @@ struct PipelineStage {
 /// "name program : outputs : inputs", one stage a line, in the order of the pipeline.
 std::vector<PipelineStage> parse_pipeline(const std::string& text);
 
-/// A stage that must run, and why. Its inputs that another such stage makes are not among the reasons: they may
-/// come out as they were.
+/// A stage that must run, and why. Its inputs that another such stage makes are not among the reasons: they
+/// may come out as they were.
 struct StaleStage {
   std::string name;
   StampState stamp = StampState::kWhole;  ///< anything else is the reason by itself
@@ -28,18 +28,19 @@ struct StaleStage {
   std::vector<std::string> damaged;       ///< outputs that are not what it wrote
 };
 
-/// The one answer to "what must run, and why": the stages that must, in the order of the pipeline. `digest_of`
-/// says what the files hold now. `again`: a stage that the user wants to run in any case; may be empty.
+/// The one answer to "what must run, and why": the stages that must, in the order of the pipeline.
+/// `digest_of` says what the files hold now. `again`: a stage that the user wants to run in any case; may be
+/// empty.
 std::vector<StaleStage> find_stale(const std::vector<PipelineStage>& pipeline, const DigestOf& digest_of,
                                    const std::string& again = "");
 
-/// For each stage the nearest stale stages before it, in the order of the pipeline: unless it is stale itself it
-/// runs only if one of them comes out different. Parallel to `pipeline`.
+/// For each stage the nearest stale stages before it, in the order of the pipeline: unless it is stale itself
+/// it runs only if one of them comes out different. Parallel to `pipeline`.
 std::vector<std::vector<std::string>> waits_for(const std::vector<PipelineStage>& pipeline,
                                                 const std::vector<StaleStage>& stale);
 
-/// The stages that a run up to and including `goals` is made of, in the order of the pipeline. "run" is all of
-/// them.
+/// The stages that a run up to and including `goals` is made of, in the order of the pipeline. "run" is all
+/// of them.
 std::vector<PipelineStage> needed_for(const std::vector<PipelineStage>& pipeline,
                                       const std::vector<std::string>& goals);
 

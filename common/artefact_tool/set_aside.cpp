@@ -20,7 +20,8 @@ fs::path free_place(const std::string& name) {
   std::replace(flat.begin(), flat.end(), '/', '.');
   const fs::path path(flat);
   for (int n = 1;; ++n) {
-    fs::path place = fs::path(kOldEdits) / (path.stem().string() + "." + std::to_string(n) + path.extension().string());
+    fs::path place =
+        fs::path(kOldEdits) / (path.stem().string() + "." + std::to_string(n) + path.extension().string());
     if (!fs::exists(fs::symlink_status(place))) {
       return place;
     }
@@ -48,9 +49,9 @@ std::vector<std::string> set_aside(const std::vector<StaleStage>& stale) {
   std::vector<std::string> notes;
   for (const StaleStage& stage : stale) {
     for (const std::string& name : stage.damaged) {
-      notes.push_back(fs::path(name).extension() == ".h5"
-                          ? name + " was changed or damaged after " + stage.name + " wrote it; it is made again"
-                          : moved_aside(stage.name, name));
+      notes.push_back(fs::path(name).extension() == ".h5" ? name + " was changed or damaged after " +
+                                                                stage.name + " wrote it; it is made again"
+                                                          : moved_aside(stage.name, name));
     }
   }
   return notes;

@@ -124,8 +124,7 @@ std::string stale_text(const PipelineStage& stage, const StaleStage& stale) {
 
 /// ", edited: 1 moved, 1 locked" for the stage that took in a hand edit; "" for all others.
 std::string edit_text(const PipelineStage& stage) {
-  const bool takes =
-      std::find(stage.inputs.begin(), stage.inputs.end(), kEdit) != stage.inputs.end();
+  const bool takes = std::find(stage.inputs.begin(), stage.inputs.end(), kEdit) != stage.inputs.end();
   if (!takes || !is_there(kEdit)) {
     return "";
   }

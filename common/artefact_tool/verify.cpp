@@ -149,9 +149,10 @@ void verify(const std::vector<fs::path>& stamps, const VerifyOptions& options) {
   for (const fs::path& stamp : stamps) {
     const StampFile file = read_stamp(stamp);
     if (file.state != StampState::kWhole) {
-      problems.push_back({errors::kArtefactDamaged, stamp.string(), "does not say what the stage read and wrote",
-                          "make run makes it again: it is like this when an older roomcut wrote it, or when the "
-                          "machine lost power"});
+      problems.push_back(
+          {errors::kArtefactDamaged, stamp.string(), "does not say what the stage read and wrote",
+           "make run makes it again: it is like this when an older roomcut wrote it, or when the "
+           "machine lost power"});
     }
     for (const StampEntry& entry : file.stamp.outputs) {
       try {

@@ -30,8 +30,9 @@ StageStamp::StageStamp(fs::path stamp, const std::string& reads) : stamp_(std::m
 bool StageStamp::is_current() const {
   const StampFile file = read_stamp(stamp_);
   WorkDigests digests(stated_digest);
-  return file.state == StampState::kWhole &&
-         changed_inputs(file.stamp, reads_, [&](const std::string& name) { return digests.of(name); }).empty();
+  return file.state == StampState::kWhole && changed_inputs(file.stamp, reads_, [&](const std::string& name) {
+                                               return digests.of(name);
+                                             }).empty();
 }
 
 void StageStamp::begin(const fs::path& scan) {

@@ -12,19 +12,20 @@
 
 namespace roomcut {
 
-/// A stage's side of a rerun that is decided by content (common/rerun): what it read and what it wrote goes into its
-/// stamp. The stage does it itself because another process would cost as much as a small stage. Names are
-/// relative to the work folder, which must be the current one. Not for stages.
+/// A stage's side of a rerun that is decided by content (common/rerun): what it read and what it wrote goes
+/// into its stamp. The stage does it itself because another process would cost as much as a small stage.
+/// Names are relative to the work folder, which must be the current one. Not for stages.
 class StageStamp {
  public:
-  /// `reads`: names of all that the stage is made from, separated by spaces; the first run of a stage on a scan
-  /// names it kScanName.
+  /// `reads`: names of all that the stage is made from, separated by spaces; the first run of a stage on a
+  /// scan names it kScanName.
   StageStamp(std::filesystem::path stamp, const std::string& reads);
 
   /// Whether the stage has run on just what lies there now, so that it need not run again.
   bool is_current() const;
-  /// Before the stage reads anything: takes the digests of what enters from outside, which a person may change
-  /// meanwhile, and moves the stamp of before aside. `scan`: the scan's file, empty when the stage reads none.
+  /// Before the stage reads anything: takes the digests of what enters from outside, which a person may
+  /// change meanwhile, and moves the stamp of before aside. `scan`: the scan's file, empty when the stage
+  /// reads none.
   void begin(const std::filesystem::path& scan);
   /// After the stage ran. Throws StageError when an output is missing or the stamp cannot be written.
   void settle(const StageRun& run, const std::vector<std::filesystem::path>& outputs) const;

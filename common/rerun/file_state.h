@@ -14,8 +14,8 @@ struct FileTime {
   auto operator<=>(const FileTime&) const = default;
 };
 
-/// What changes whenever a file's content does. `changed` (ctime) is set by the system alone: neither touch nor
-/// cp -a nor rsync can put it back.
+/// What changes whenever a file's content does. `changed` (ctime) is set by the system alone: neither touch
+/// nor cp -a nor rsync can put it back.
 struct FileState {
   unsigned long long device = 0;  ///< not compared: it may change when the machine starts anew
   unsigned long long inode = 0;
@@ -27,11 +27,12 @@ struct FileState {
 /// The state of the regular file at `path` (links are followed); none when there is none.
 std::optional<FileState> file_state(const std::filesystem::path& path);
 
-/// "inode size modified changed", the times as seconds.nanoseconds: for FileState's comparison in a text file.
+/// "inode size modified changed", the times as seconds.nanoseconds: for FileState's comparison in a text
+/// file.
 std::string to_text(const FileState& state);
 
-/// What the file system of `folder` takes for now: the ctime of a file that is touched there; with the device.
-/// None when the folder cannot be written.
+/// What the file system of `folder` takes for now: the ctime of a file that is touched there; with the
+/// device. None when the folder cannot be written.
 struct FileSystemNow {
   FileTime time;
   unsigned long long device = 0;
@@ -39,8 +40,9 @@ struct FileSystemNow {
 std::optional<FileSystemNow> file_system_now(const std::filesystem::path& folder);
 
 /// Whether a later change of a file in this state, seen at `now` or later, must give it another state. Not so
-/// for one that changed within the same tick of the clock (the racy case that git knows), which therefore must
-/// not be remembered. On another file system, whose clock may be another and coarser, two seconds must have passed.
+/// for one that changed within the same tick of the clock (the racy case that git knows), which therefore
+/// must not be remembered. On another file system, whose clock may be another and coarser, two seconds must
+/// have passed.
 bool is_settled(const FileState& state, const FileSystemNow& now);
 
 }  // namespace roomcut

@@ -14,7 +14,8 @@ struct StampEntry {
   std::string name;  ///< relative to the work folder, i.e. the current folder; or kScanName
 };
 
-/// What a stage that has run leaves in stamps/<name>: by digest, all that it was made from and all that it made.
+/// What a stage that has run leaves in stamps/<name>: by digest, all that it was made from and all that it
+/// made.
 struct Stamp {
   std::vector<StampEntry> inputs;
   std::vector<StampEntry> outputs;
@@ -38,8 +39,8 @@ StampFile read_stamp(const std::filesystem::path& stamp);
 /// The digest that a file has now, by name.
 using DigestOf = std::function<std::string(const std::string&)>;
 
-/// Those of `reads` that are not what the stamp's run read, or that it did not read at all. A scan that is gone
-/// is taken for unchanged: what was made from it stays.
+/// Those of `reads` that are not what the stamp's run read, or that it did not read at all. A scan that is
+/// gone is taken for unchanged: what was made from it stays.
 std::vector<std::string> changed_inputs(const Stamp& stamp, const std::vector<std::string>& reads,
                                         const DigestOf& digest_of);
 

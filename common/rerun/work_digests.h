@@ -18,22 +18,24 @@ inline constexpr const char* kDigestFile = "stamps/.digests";
 /// What stands for the digest of a file that is not there.
 inline constexpr const char* kNoFile = "none";
 
-/// What the files of the work folder hold now, by digest: of the bytes for what enters from outside (the scan,
-/// edits/, inputs/, params/), of the payload for artefacts. A digest that was computed is remembered with the
-/// file's state, and computed again unless the file still has just that state; so times can never make a changed
-/// file look unchanged, and a copied or touched one is read once more.
+/// What the files of the work folder hold now, by digest: of the bytes for what enters from outside (the
+/// scan, edits/, inputs/, params/), of the payload for artefacts. A digest that was computed is remembered
+/// with the file's state, and computed again unless the file still has just that state; so times can never
+/// make a changed file look unchanged, and a copied or touched one is read once more.
 class WorkDigests {
  public:
   using PayloadDigest = std::function<std::string(const std::filesystem::path&)>;
 
-  /// Reads kDigestFile; a missing or damaged one remembers nothing. `payload_of` gives the payload digest of a
-  /// file as its content has it; StageErrors that it throws make the file one of kUnreadable.
+  /// Reads kDigestFile; a missing or damaged one remembers nothing. `payload_of` gives the payload digest of
+  /// a file as its content has it; StageErrors that it throws make the file one of kUnreadable.
   explicit WorkDigests(PayloadDigest payload_of, std::filesystem::path scan = {});
 
   /// The digest of `name`, kNoFile, or a text that is no digest when the file cannot be read.
   std::string of(const std::string& name);
-  /// What `name` held when it had `state`, known from elsewhere. Kept only when the state was settled by then.
-  void note(const std::string& name, const FileState& state, const FileSystemNow& now, const std::string& digest);
+  /// What `name` held when it had `state`, known from elsewhere. Kept only when the state was settled by
+  /// then.
+  void note(const std::string& name, const FileState& state, const FileSystemNow& now,
+            const std::string& digest);
   /// Writes kDigestFile anew when digests were computed. Never throws: it only saves time.
   void save();
 
@@ -47,8 +49,8 @@ class WorkDigests {
   bool is_new_ = false;
 };
 
-/// Adds one line to kDigestFile, as WorkDigests::note(), for a stage that has written or read the file itself.
-/// Several processes may do so at once.
+/// Adds one line to kDigestFile, as WorkDigests::note(), for a stage that has written or read the file
+/// itself. Several processes may do so at once.
 void append_digest(const std::string& name, const FileState& state, const FileSystemNow& now,
                    const std::string& digest);
 

@@ -51,7 +51,8 @@ class Plan : public ::testing::Test {
     }
   }
   std::vector<StaleStage> stale(const std::string& again = "") const {
-    return find_stale(pipeline, [this](const std::string& name) { return now.at(name); }, again);
+    return find_stale(
+        pipeline, [this](const std::string& name) { return now.at(name); }, again);
   }
   WorkFolder folder;
   std::vector<PipelineStage> pipeline = parse_pipeline(kPipeline);
