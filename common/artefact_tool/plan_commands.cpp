@@ -29,8 +29,8 @@ void print_names(const std::vector<std::string>& names) {
 void print_plan(const PlanOptions& options, const std::vector<std::string>& goals) {
   const std::vector<PipelineStage> needed = needed_for(pipeline_from_stdin(), goals);
   WorkDigests digests(actual_digest, options.scan);
-  const auto digest_of = [&](const std::string& name) { return digests.of(name); };
-  const std::vector<StaleStage> stale = find_stale(needed, digest_of, options.again);
+  const auto content_of = [&](const std::string& name) { return digests.of(name); };
+  const std::vector<StaleStage> stale = find_stale(needed, content_of, options.again);
   digests.save();
   const bool unknown = std::any_of(stale.begin(), stale.end(), [](const StaleStage& stage) {
     return stage.stamp == StampState::kUnknown;

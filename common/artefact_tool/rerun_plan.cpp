@@ -2,6 +2,7 @@
 #include "common/artefact_tool/rerun_plan.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -29,33 +30,37 @@ std::vector<std::string> all_outputs(const PipelineStage& stage, const Stamp& st
   return names;
 }
 
-void look_at_outputs(const PipelineStage& stage, const Stamp& stamp, const DigestOf& digest_of,
+void look_at_outputs(const PipelineStage& stage, const Stamp& stamp, const DigestOf& content_of,
                      StaleStage& found) {
   for (const std::string& name : all_outputs(stage, stamp)) {
     const auto entry = std::find_if(stamp.outputs.begin(), stamp.outputs.end(),
                                     [&](const StampEntry& e) { return e.name == name; });
-    const std::string now = digest_of(name);
+    const std::string now = content_of(name);
     if (now == kNoFile) {
       found.missing.push_back(name);
-    } else if (entry == stamp.outputs.end() || entry->sha256 != now) {
+    } else if (entry == stamp.outputs.end() || entry->content != now) {
       found.damaged.push_back(name);
     }
   }
 }
 
-StaleStage look_at(const PipelineStage& stage, const DigestOf& digest_of, const Names& to_be_made) {
+/// What is known of the pipeline's files while it is gone through.
+struct Known {
+  Names to_be_made;                         ///< by stale stages, or by those that wait for one
+  std::map<std::string, std::string> made;  ///< payload digests of what lies there and is as it was written
+};
+
+StaleStage look_at(const PipelineStage& stage, const Stamp& stamp, const DigestOf& content_of,
+                   const Known& known) {
   StaleStage found;
-  found.name = stage.name;
-  const StampFile file = read_stamp("stamps/" + stage.name);
-  found.stamp = file.state;
-  if (file.state != StampState::kWhole) {
-    return found;
-  }
   std::vector<std::string> settled;
   std::copy_if(stage.inputs.begin(), stage.inputs.end(), std::back_inserter(settled),
-               [&](const std::string& name) { return !to_be_made.contains(name); });
-  found.changed = changed_inputs(file.stamp, settled, digest_of);
-  look_at_outputs(stage, file.stamp, digest_of, found);
+               [&](const std::string& name) { return !known.to_be_made.contains(name); });
+  found.changed = changed_inputs(stamp, settled, [&](const std::string& name) {
+    const auto made = known.made.find(name);
+    return made == known.made.end() ? content_of(name) : made->second;
+  });
+  look_at_outputs(stage, stamp, content_of, found);
   return found;
 }
 
@@ -88,19 +93,28 @@ std::vector<PipelineStage> parse_pipeline(const std::string& text) {
   return pipeline;
 }
 
-std::vector<StaleStage> find_stale(const std::vector<PipelineStage>& pipeline, const DigestOf& digest_of,
+std::vector<StaleStage> find_stale(const std::vector<PipelineStage>& pipeline, const DigestOf& content_of,
                                    const std::string& again) {
   std::vector<StaleStage> stale;
-  Names to_be_made;  // by stale stages: what it will hold is not known yet
+  Known known;
   for (const PipelineStage& stage : pipeline) {
-    StaleStage found = look_at(stage, digest_of, to_be_made);
+    const StampFile file = read_stamp("stamps/" + stage.name);
+    StaleStage found;
+    if (file.state == StampState::kWhole) {
+      found = look_at(stage, file.stamp, content_of, known);
+    }
+    found.name = stage.name;
+    found.stamp = file.state;
     found.asked_for = stage.name == again;
+    if (must_run(found) || reads_any(stage, known.to_be_made)) {
+      known.to_be_made.insert(stage.outputs.begin(), stage.outputs.end());
+    } else {
+      for (const StampEntry& entry : file.stamp.outputs) {
+        known.made[entry.name] = entry.sha256;
+      }
+    }
     if (must_run(found)) {
       stale.push_back(std::move(found));
-    }
-    // What waits for a stale stage may come out different as well.
-    if ((!stale.empty() && stale.back().name == stage.name) || reads_any(stage, to_be_made)) {
-      to_be_made.insert(stage.outputs.begin(), stage.outputs.end());
     }
   }
   return stale;

@@ -29,9 +29,9 @@ struct StaleStage {
 };
 
 /// The one answer to "what must run, and why": the stages that must, in the order of the pipeline.
-/// `digest_of` says what the files hold now. `again`: a stage that the user wants to run in any case; may be
-/// empty.
-std::vector<StaleStage> find_stale(const std::vector<PipelineStage>& pipeline, const DigestOf& digest_of,
+/// `content_of` says what the files hold now (WorkDigests). `again`: a stage that the user wants to run in
+/// any case; may be empty.
+std::vector<StaleStage> find_stale(const std::vector<PipelineStage>& pipeline, const DigestOf& content_of,
                                    const std::string& again = "");
 
 /// For each stage the nearest stale stages before it, in the order of the pipeline: unless it is stale itself

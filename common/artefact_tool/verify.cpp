@@ -13,6 +13,7 @@
 #include "common/mesh/mesh_check.h"
 #include "common/mesh/mesh_io.h"
 #include "common/rerun/stamp.h"
+#include "common/rerun/work_digests.h"
 
 namespace roomcut {
 
@@ -122,7 +123,7 @@ void check(const StampEntry& entry, const VerifyOptions& options, std::vector<Pr
   }
   const std::size_t before = problems.size();
   const InputRecord stated = inspect_artefact(entry.name);
-  if (stated.payload_sha256 != entry.sha256) {
+  if (stated.payload_sha256 != entry.sha256 || content_digest(entry.name, actual_digest) != entry.content) {
     problems.push_back(
         {errors::kArtefactMismatch, name, "is not the file that its stage wrote", "delete it and run make"});
   }

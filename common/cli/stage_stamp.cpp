@@ -18,6 +18,11 @@ std::string stated_digest(const fs::path& path) {
   return inspect_artefact(path).payload_sha256;
 }
 
+/// Of an input that another stage makes.
+std::string made_digest(const std::string& name) {
+  return file_state(name) ? stated_digest(name) : kNoFile;
+}
+
 }  // namespace
 
 StageStamp::StageStamp(fs::path stamp, const std::string& reads) : stamp_(std::move(stamp)) {
@@ -30,9 +35,10 @@ StageStamp::StageStamp(fs::path stamp, const std::string& reads) : stamp_(std::m
 bool StageStamp::is_current() const {
   const StampFile file = read_stamp(stamp_);
   WorkDigests digests(stated_digest);
-  return file.state == StampState::kWhole && changed_inputs(file.stamp, reads_, [&](const std::string& name) {
-                                               return digests.of(name);
-                                             }).empty();
+  const auto digest_of = [&](const std::string& name) {
+    return is_from_outside(name) ? digests.of(name) : made_digest(name);
+  };
+  return file.state == StampState::kWhole && changed_inputs(file.stamp, reads_, digest_of).empty();
 }
 
 void StageStamp::begin(const fs::path& scan) {
@@ -41,7 +47,7 @@ void StageStamp::begin(const fs::path& scan) {
   for (const std::string& name : reads_) {
     if (name == kScanName) {
       scan_state_ = file_state(scan);  // its digest is the stage's own affair: it reads the bytes anyway
-    } else if (is_taken_by_bytes(name)) {
+    } else if (is_from_outside(name)) {
       from_outside_[name] = digests.of(name);
     }
   }
@@ -60,24 +66,27 @@ std::string StageStamp::input_digest(const std::string& name, const StageRun& ru
       }
     }
   }
-  return file_state(name) ? stated_digest(name) : kNoFile;
+  return made_digest(name);
 }
 
 void StageStamp::settle(const StageRun& run, const std::vector<fs::path>& outputs) const {
   Stamp stamp;
   for (const std::string& name : reads_) {
-    stamp.inputs.push_back({input_digest(name, run), name});
+    stamp.inputs.push_back({input_digest(name, run), name, ""});
     if (name == kScanName && scan_state_ && begun_) {
       append_digest(name, *scan_state_, *begun_, stamp.inputs.back().sha256);
     }
   }
   const std::optional<FileSystemNow> now = file_system_now(stamp_.parent_path());
   for (const fs::path& output : outputs) {
-    const std::string name = output.generic_string();
+    const InputRecord stated = inspect_artefact(output);
+    // What is no artefact states the digest of its bytes.
+    const std::string content =
+        stated.artefact.empty() ? stated.payload_sha256 : content_digest(output, stated_digest);
+    stamp.outputs.push_back({stated.payload_sha256, output.generic_string(), content});
     const std::optional<FileState> state = file_state(output);
-    stamp.outputs.push_back({stated_digest(output), name});
-    if (state && now) {
-      append_digest(name, *state, *now, stamp.outputs.back().sha256);
+    if (now && state) {
+      append_digest(stamp.outputs.back().name, *state, *now, content);
     }
   }
   settle_stamp(stamp_, stamp);

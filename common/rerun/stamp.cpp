@@ -37,13 +37,17 @@ bool stays_inside(const fs::path& name) {
          std::none_of(name.begin(), name.end(), [](const fs::path& part) { return part == ".."; });
 }
 
-/// "in DIGEST NAME" or "out DIGEST NAME".
+/// "in DIGEST NAME" or "out DIGEST CONTENT NAME".
 bool take_line(const std::string& line, Stamp& stamp) {
   std::istringstream words(line);
   std::string kind;
   StampEntry entry;
-  if (!(words >> kind >> entry.sha256) || words.get() != ' ' || !std::getline(words, entry.name) ||
-      !stays_inside(entry.name) || (kind != "in" && kind != "out")) {
+  words >> kind >> entry.sha256;
+  if (kind == "out") {
+    words >> entry.content;
+  }
+  if (!words || words.get() != ' ' || !std::getline(words, entry.name) || !stays_inside(entry.name) ||
+      (kind != "in" && kind != "out")) {
     return false;
   }
   (kind == "in" ? stamp.inputs : stamp.outputs).push_back(std::move(entry));
@@ -76,7 +80,7 @@ std::string to_text(const Stamp& stamp) {
     text << "in " << entry.sha256 << ' ' << entry.name << '\n';
   }
   for (const StampEntry& entry : stamp.outputs) {
-    text << "out " << entry.sha256 << ' ' << entry.name << '\n';
+    text << "out " << entry.sha256 << ' ' << entry.content << ' ' << entry.name << '\n';
   }
   text << kEnd << '\n';
   return text.str();

@@ -8,10 +8,13 @@
 
 namespace roomcut {
 
-/// A file that a stage read or wrote, as it was then. Digests as WorkDigests has them.
+/// A file that a stage read or wrote, as it was then.
 struct StampEntry {
+  /// The payload digest of an artefact: what follows runs again only when this changes. Of other files the
+  /// digest of their bytes; kNoFile for an optional one that was not there.
   std::string sha256;
-  std::string name;  ///< relative to the work folder, i.e. the current folder; or kScanName
+  std::string name;     ///< relative to the work folder, i.e. the current folder; or kScanName
+  std::string content;  ///< outputs only: what WorkDigests says of the file as it was written
 };
 
 /// What a stage that has run leaves in stamps/<name>: by digest, all that it was made from and all that it

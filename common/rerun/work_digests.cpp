@@ -36,13 +36,13 @@ std::optional<std::pair<std::string, std::string>> name_and_rest(const std::stri
 
 }  // namespace
 
-bool is_taken_by_bytes(const std::string& name) {
+bool is_from_outside(const std::string& name) {
   return name == kScanName || name.starts_with("edits/") || name.starts_with("inputs/") ||
          name.starts_with("params/");
 }
 
-WorkDigests::WorkDigests(PayloadDigest payload_of, fs::path scan)
-    : payload_of_(std::move(payload_of)), scan_(std::move(scan)) {
+WorkDigests::WorkDigests(PayloadDigest payload_of, fs::path scan, unsigned long long whole_up_to)
+    : payload_of_(std::move(payload_of)), scan_(std::move(scan)), whole_up_to_(whole_up_to) {
   if (!file_state(kDigestFile)) {
     return;
   }
@@ -58,9 +58,16 @@ fs::path WorkDigests::path_of(const std::string& name) const {
   return name == kScanName ? scan_ : fs::path(name);
 }
 
+std::string content_digest(const fs::path& path, const PayloadDigest& payload_of,
+                           unsigned long long whole_up_to) {
+  const std::optional<FileState> state = file_state(path);
+  return state && state->size <= whole_up_to ? sha256_of_file(path) : payload_of(path);
+}
+
 std::string WorkDigests::computed(const std::string& name) const {
   try {
-    return is_taken_by_bytes(name) ? sha256_of_file(path_of(name)) : payload_of_(path_of(name));
+    return is_from_outside(name) ? sha256_of_file(path_of(name))
+                                 : content_digest(path_of(name), payload_of_, whole_up_to_);
   } catch (const std::exception&) {  // whatever a damaged file makes of its reader
     return kUnreadable;
   }
@@ -80,10 +87,10 @@ std::string WorkDigests::of(const std::string& name) {
     }
   }
   const std::optional<FileSystemNow> now = file_system_now(fs::path(kDigestFile).parent_path());
-  const std::optional<FileState> seen = file_state(path_of(name));
+  const FileState seen = file_state(path_of(name)).value_or(*state);
   const std::string digest = computed(name);
-  if (now && seen && digest != kUnreadable) {
-    note(name, *seen, *now, digest);
+  if (now && digest != kUnreadable) {
+    note(name, seen, *now, digest);
   }
   return digest;
 }

@@ -18,17 +18,26 @@ inline constexpr const char* kDigestFile = "stamps/.digests";
 /// What stands for the digest of a file that is not there.
 inline constexpr const char* kNoFile = "none";
 
-/// What the files of the work folder hold now, by digest: of the bytes for what enters from outside (the
-/// scan, edits/, inputs/, params/), of the payload for artefacts. A digest that was computed is remembered
-/// with the file's state, and computed again unless the file still has just that state; so times can never
-/// make a changed file look unchanged, and a copied or touched one is read once more.
+/// Files up to this size go by the digest of their bytes, larger ones by that of their payload, for which a
+/// cloud's blocks are read at once. [bytes]
+inline constexpr unsigned long long kWholeUpTo = 8U << 20;
+
+/// Gives the payload digest of a file as its content has it.
+using PayloadDigest = std::function<std::string(const std::filesystem::path&)>;
+
+/// The digest by which a file that a stage wrote goes, computed. Throws what reading it throws.
+std::string content_digest(const std::filesystem::path& path, const PayloadDigest& payload_of,
+                           unsigned long long whole_up_to = kWholeUpTo);
+
+/// What the files of the work folder hold now, by digest: of the bytes, whatever a file says of itself, or of
+/// a large artefact's payload. A digest that was computed is remembered with the file's state, and computed
+/// again unless the file still has just that state; so times can never make a changed file look unchanged,
+/// and a copied or touched one is read once more.
 class WorkDigests {
  public:
-  using PayloadDigest = std::function<std::string(const std::filesystem::path&)>;
-
-  /// Reads kDigestFile; a missing or damaged one remembers nothing. `payload_of` gives the payload digest of
-  /// a file as its content has it; StageErrors that it throws make the file one of kUnreadable.
-  explicit WorkDigests(PayloadDigest payload_of, std::filesystem::path scan = {});
+  /// Reads kDigestFile; a missing or damaged one remembers nothing.
+  explicit WorkDigests(PayloadDigest payload_of, std::filesystem::path scan = {},
+                       unsigned long long whole_up_to = kWholeUpTo);
 
   /// The digest of `name`, kNoFile, or a text that is no digest when the file cannot be read.
   std::string of(const std::string& name);
@@ -45,6 +54,7 @@ class WorkDigests {
 
   PayloadDigest payload_of_;
   std::filesystem::path scan_;
+  unsigned long long whole_up_to_;
   std::map<std::string, std::string> known_;  ///< name to "digest state"
   bool is_new_ = false;
 };
@@ -54,7 +64,8 @@ class WorkDigests {
 void append_digest(const std::string& name, const FileState& state, const FileSystemNow& now,
                    const std::string& digest);
 
-/// Whether a file goes by the digest of its bytes, whatever it says of itself.
-bool is_taken_by_bytes(const std::string& name);
+/// Whether a file enters from outside: the scan, edits/, inputs/, params/. These go by their bytes at any
+/// size.
+bool is_from_outside(const std::string& name);
 
 }  // namespace roomcut

@@ -30,7 +30,7 @@ for stage in $ALL; do
   for moment in $(seq "$moments"); do
     rm -f "$work/stamps/$stage"
     # Half of the moments with the files gone, so that a half-written one would be seen.
-    if [ $((moment % 2)) -eq 0 ]; then (cd "$work" && sed -n 's/^out [^ ]* //p' "$place/stamp" | while read -r f; do rm -f "$f"; done); fi
+    if [ $((moment % 2)) -eq 0 ]; then (cd "$work" && sed -n 's/^out [^ ]* [^ ]* //p' "$place/stamp" | while read -r f; do rm -f "$f"; done); fi
     setsid make -C "$SOURCE" "$stage" SCAN="$scan" WORK="$work" BUILD="$BUILD" CONFIG="$config" > "$output" 2>&1 &
     group=$!
     sleep "$(printf '0.%06d' $((RANDOM * 33 % length % 999999)))"

@@ -37,15 +37,12 @@ class Plan : public ::testing::Test {
     for (const PipelineStage& stage : pipeline) {
       Stamp stamp;
       for (const std::string& name : stage.inputs) {
-        now[name] = "of " + name;
-        stamp.inputs.push_back({"of-" + name, name});
+        now.emplace(name, "of-" + name);  // unless a stage before it makes it
+        stamp.inputs.push_back({"of-" + name, name, ""});
       }
       for (const std::string& name : stage.outputs) {
-        stamp.outputs.push_back({"of-" + name, name});
-        now[name] = "of-" + name;
-      }
-      for (const StampEntry& entry : stamp.inputs) {
-        now[entry.name] = entry.sha256;
+        now[name] = "bytes-" + name;
+        stamp.outputs.push_back({"of-" + name, name, now[name]});
       }
       settle_stamp("stamps/" + stage.name, stamp);
     }
@@ -87,7 +84,7 @@ TEST_F(Plan, a_damaged_output_is_its_makers_affair_and_not_its_readers) {
 
 TEST_F(Plan, a_missing_output_is_made_again_also_one_that_only_the_stamp_names) {
   Stamp stamp = read_stamp("stamps/extract").stamp;
-  stamp.outputs.push_back({"of-picture", "pictures/a.svg"});
+  stamp.outputs.push_back({"of-picture", "pictures/a.svg", "of-picture"});
   settle_stamp("stamps/extract", stamp);
   now["pictures/a.svg"] = kNoFile;
   now["margins"] = kNoFile;
@@ -98,11 +95,19 @@ TEST_F(Plan, a_missing_output_is_made_again_also_one_that_only_the_stamp_names) 
 }
 
 TEST_F(Plan, a_reader_of_another_version_of_a_file_is_stale_although_its_maker_is_not) {
-  now["labels"] = "other";
+  now["labels"] = "other-bytes";
   Stamp cut = read_stamp("stamps/cut").stamp;
-  cut.outputs[0].sha256 = "other";
+  cut.outputs[0] = {"other", "labels", "other-bytes"};
   settle_stamp("stamps/cut", cut);
   EXPECT_EQ(names(stale()), (Words{"refine", "extract"}));
+}
+
+TEST_F(Plan, other_bytes_of_the_same_payload_make_no_reader_stale) {
+  now["labels"] = "other-bytes";
+  Stamp cut = read_stamp("stamps/cut").stamp;
+  cut.outputs[0].content = "other-bytes";  // the cut ran again; only its provenance is another
+  settle_stamp("stamps/cut", cut);
+  EXPECT_EQ(names(stale()), Words{});
 }
 
 TEST_F(Plan, a_stage_without_a_whole_stamp_runs) {

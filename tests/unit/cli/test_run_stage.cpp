@@ -231,6 +231,7 @@ TEST(RunStage, leaves_a_stamp_with_the_digests_of_what_it_read_and_wrote) {
   EXPECT_EQ(file.stamp.inputs[1].sha256, inspect_artefact("10_ingest/cloud.h5").payload_sha256);
   ASSERT_EQ(file.stamp.outputs.size(), 2U);
   EXPECT_EQ(file.stamp.outputs[0].sha256, inspect_artefact("20_slice/slices.h5").payload_sha256);
+  EXPECT_EQ(file.stamp.outputs[0].content, sha256_of_file("20_slice/slices.h5"));
   EXPECT_EQ(file.stamp.outputs[1].name, "more.txt");
   EXPECT_EQ(file.stamp.outputs[1].sha256, sha256_hex("more"));
 }

@@ -9,7 +9,7 @@
 namespace roomcut::test {
 namespace {
 
-const Stamp kStamp{{{"12", "params/a.json"}, {"34", "scan"}}, {{"56", "10_ingest/cloud with blanks.h5"}}};
+const Stamp kStamp{{{"12", "params/a.json", ""}, {"34", "scan", ""}}, {{"56", "10_ingest/a cloud.h5", "78"}}};
 
 TEST(Stamp, comes_back_as_it_was_written) {
   const WorkFolder folder;
@@ -20,7 +20,9 @@ TEST(Stamp, comes_back_as_it_was_written) {
   EXPECT_EQ(file.stamp.inputs[0].sha256, "12");
   EXPECT_EQ(file.stamp.inputs[1].name, "scan");
   ASSERT_EQ(file.stamp.outputs.size(), 1U);
-  EXPECT_EQ(file.stamp.outputs[0].name, "10_ingest/cloud with blanks.h5");
+  EXPECT_EQ(file.stamp.outputs[0].name, "10_ingest/a cloud.h5");
+  EXPECT_EQ(file.stamp.outputs[0].sha256, "56");
+  EXPECT_EQ(file.stamp.outputs[0].content, "78");
 }
 
 TEST(Stamp, of_a_stage_that_did_not_end_is_no_stamp) {
@@ -51,7 +53,7 @@ TEST(Stamp, that_is_cut_short_or_of_an_older_roomcut_says_nothing) {
 TEST(Stamp, that_names_files_outside_the_work_folder_is_refused) {
   const WorkFolder folder;
   for (const char* name : {"/etc/passwd", "../precious.txt", "a/../../precious.txt"}) {
-    settle_stamp("stamps/a", {{}, {{"12", name}}});
+    settle_stamp("stamps/a", {{}, {{"12", name, "34"}}});
     EXPECT_EQ(read_stamp("stamps/a").state, StampState::kUnknown) << name;
     EXPECT_TRUE(read_stamp("stamps/a").stamp.outputs.empty()) << name;
   }

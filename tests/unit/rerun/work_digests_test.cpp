@@ -21,7 +21,7 @@ struct Counted {
                         ++reads;
                         return "payload-" + bytes_of(path);
                       },
-                      "outside.ply"};
+                      "outside.ply", 0};
 };
 
 /// So that the file system's clock, which may go in steps of 10 ms, moves on.
@@ -101,11 +101,20 @@ TEST(WorkDigests, what_enters_from_outside_goes_by_its_bytes) {
   EXPECT_EQ(counted.digests.of(kScanName), kNoFile);
 }
 
+TEST(WorkDigests, small_files_go_by_their_bytes_whatever_they_state) {
+  const WorkFolder folder;
+  put_bytes("a.h5", "1");
+  const auto payload_of = [](const std::filesystem::path&) { return std::string("payload"); };
+  EXPECT_EQ(WorkDigests(payload_of).of("a.h5"), sha256_hex("1"));
+  std::filesystem::resize_file("a.h5", kWholeUpTo + 1);
+  EXPECT_EQ(WorkDigests(payload_of).of("a.h5"), "payload");
+}
+
 TEST(WorkDigests, a_file_that_cannot_be_read_has_a_digest_that_no_content_has) {
   const WorkFolder folder;
   put_bytes("a.h5", "1");
   WorkDigests digests(
-      [](const std::filesystem::path&) -> std::string { throw std::runtime_error("damaged"); });
+      [](const std::filesystem::path&) -> std::string { throw std::runtime_error("damaged"); }, {}, 0);
   EXPECT_NE(digests.of("a.h5"), kNoFile);
   EXPECT_LT(digests.of("a.h5").size(), 64U);
 }
