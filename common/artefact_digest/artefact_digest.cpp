@@ -21,4 +21,8 @@ InputRecord verified_artefact(const std::filesystem::path& path) {
   return stated;
 }
 
+std::string payload_digest(const std::filesystem::path& path) {
+  return verified_artefact(path).payload_sha256;
+}
+
 }  // namespace roomcut

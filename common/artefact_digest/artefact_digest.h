@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "common/artefact/provenance.h"
 
@@ -12,5 +13,8 @@ namespace roomcut {
 /// Never from memory: the file is read. Errors: kArtefactMissing; kArtefactDamaged when the content is not
 /// what its writer wrote, or cannot be read; kArtefactVersion. Thread-safe; the same for any threads.
 InputRecord verified_artefact(const std::filesystem::path& path);
+
+/// verified_artefact()'s digest alone.
+std::string payload_digest(const std::filesystem::path& path);
 
 }  // namespace roomcut

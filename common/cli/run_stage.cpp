@@ -10,10 +10,11 @@
 #include <new>
 #include <optional>
 
-#include "common/artefact/stamp.h"
 #include "common/artefact/unsynced_file.h"
+#include "common/cli/stage_stamp.h"
 #include "common/cli/stage_state.h"
 #include "common/errors/codes.h"
+#include "common/rerun/work_digests.h"
 
 namespace roomcut {
 
@@ -28,13 +29,30 @@ struct CommandLine {
   int threads = 0;
   std::string log;
   std::string stamp;
-  std::string missing;
+  std::string reads;
+  std::string announce;
+  bool if_changed = false;
   bool quiet = false;
   bool verbose = false;
   bool dump = false;
   bool dump_yaml = false;
   std::map<std::string, std::string> files;
 };
+
+/// For Make, which runs every stage in the work folder.
+void declare_stamp_options(CLI::App& app, CommandLine& line) {
+  app.add_option("--stamp", line.stamp, "Written when the stage has run: what it read and wrote, by digest")
+      ->type_name("FILE")
+      ->group("Make");
+  app.add_option("--reads", line.reads, "What the stamp says of the inputs: names, separated by spaces")
+      ->type_name("FILES")
+      ->group("Make");
+  app.add_flag("--if-changed", line.if_changed, "Do nothing when the stamp's inputs are still the same")
+      ->group("Make");
+  app.add_option("--announce", line.announce, "Printed to standard output when the stage begins")
+      ->type_name("TEXT")
+      ->group("Make");
+}
 
 void declare_options(CLI::App& app, const StageInfo& info, CommandLine& line, StageRun::State& state) {
   app.set_version_flag("--version",
@@ -56,12 +74,7 @@ void declare_options(CLI::App& app, const StageInfo& info, CommandLine& line, St
   app.add_option("--log", line.log,
                  "Log of this run; default: <work>/logs/" + info.name + ".json when --work is given")
       ->type_name("FILE");
-  app.add_option("--stamp", line.stamp, "For Make: written when the stage has run, names the outputs")
-      ->type_name("FILE")
-      ->group("Make");
-  app.add_option("--missing", line.missing, "For Make: outputs that were not there, separated by spaces")
-      ->type_name("FILES")
-      ->group("Make");
+  declare_stamp_options(app, line);
   app.add_flag("-q,--quiet", line.quiet, "Print nothing but errors");
   app.add_flag("-v,--verbose", line.verbose, "Print settings and files as well");
   app.add_flag("--dump-params", line.dump, "Print the resolved parameters and stop");
@@ -113,6 +126,7 @@ std::vector<std::filesystem::path> outputs_of(const StageInfo& info, const Stage
       outputs.push_back(path);
     }
   }
+  outputs.insert(outputs.end(), state.also_written.begin(), state.also_written.end());
   return outputs;
 }
 
@@ -164,6 +178,29 @@ void print_summary(const StageRun::State& state) {
       spdlog::warn("  {}", warning);
     }
   }
+}
+
+/// The body with what Make wants to know before and after it; false when there was nothing to do.
+bool run_body(const StageInfo& info, const CommandLine& line, StageRun::State& state,
+              const std::function<void(StageRun&)>& body) {
+  std::optional<StageStamp> stamp;
+  if (!line.stamp.empty()) {
+    stamp.emplace(line.stamp, line.reads);
+    if (line.if_changed && stamp->is_current()) {
+      return false;
+    }
+    const auto scan = state.files.find(kScanName);
+    stamp->begin(scan == state.files.end() ? std::filesystem::path() : scan->second);
+  }
+  if (!line.announce.empty()) {
+    std::cout << line.announce << std::endl;  // at once: somebody waits for it
+  }
+  StageRun run(state);
+  body(run);
+  if (stamp) {
+    stamp->settle(run, outputs_of(info, state));
+  }
+  return true;
 }
 
 int report(const std::vector<Problem>& problems) {
@@ -230,6 +267,7 @@ int run_stage(int argc, char** argv, const StageInfo& info, ParameterTable table
   const bool work_given = app.get_option("--work")->count() > 0;
 
   std::vector<Problem> problems;
+  bool ran = true;  // also a stage that failed
   const int exit_code = guarded(
       [&] {
         resolve_parameters(info, line, table);
@@ -253,18 +291,14 @@ int run_stage(int argc, char** argv, const StageInfo& info, ParameterTable table
           limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(line.threads));
         }
         echo_settings(info, state, table);
-        StageRun run(state);
-        if (!line.stamp.empty()) {
-          withdraw_stamp(line.stamp);
-        }
-        body(run);
-        if (!line.stamp.empty()) {
-          settle_stamp(line.stamp, line.missing, outputs_of(info, state));
+        ran = run_body(info, line, state, body);
+        if (!ran) {
+          return;
         }
         print_summary(state);
       },
       problems);
-  if (!line.dump && !line.dump_yaml) {
+  if (!line.dump && !line.dump_yaml && ran) {
     write_log(line, work_given, info, state, problems, exit_code);
   }
   return exit_code;

@@ -113,6 +113,10 @@ void StageRun::set_input_digest(const std::string& name, const std::string& sha2
   state_.provenance.reset();
 }
 
+void StageRun::wrote(const fs::path& path) {
+  state_.also_written.push_back(path);
+}
+
 Progress StageRun::progress(const std::string& what, std::uint64_t total) const {
   return {state_.info->name + ": " + what, total, state_.quiet};
 }

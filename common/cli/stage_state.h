@@ -36,6 +36,7 @@ struct StageRun::State {
   bool verbose = false;
 
   std::map<std::string, std::string> given_digests;  ///< by set_input_digest()
+  std::vector<std::filesystem::path> also_written;   ///< by wrote()
   std::optional<Provenance> provenance;
 
   std::mutex mutex;  ///< guards what follows
