@@ -9,12 +9,10 @@ left an output, or an artefact that was believed although its content is not wha
 Ends with 1 when there was one. Exit 77: h5py or numpy is not installed.
 """
 import argparse
-import hashlib
 import json
 import multiprocessing
 import os
 import random
-import re
 import shutil
 import sys
 import tempfile
@@ -25,6 +23,7 @@ import base_run
 import limits
 import mutations
 import programs
+import results
 
 try:
     import h5_mutations
@@ -34,25 +33,15 @@ except ImportError as missing:
     sys.exit(77)
 
 PEAK = 1 << 30
-MESSAGE = re.compile(r"^error\[[A-Z]\d\d\] \S.*: .+\n(?:.*\n)*?hint: .+", re.M)
 COLUMNS = ["files", "runs", "refused", "crash", "exit 1", "hang", "memory", "believed", "message", "left"]
 FAULTS = COLUMNS[3:]
 
 
 def result_of(folder, program, ending):
-    """What a program made of its inputs: digests of its outputs. The page holds the times of the stages, in a line of their own."""
-    results = [ending.out] if program and program.prints else []
-    for path in program.outputs if program else []:
-        try:
-            with open(os.path.join(folder, path), "rb") as file:
-                content = file.read()
-        except FileNotFoundError:
-            results.append(None)
-            continue
-        if path == programs.REPORT:
-            content = b"\n".join(line for line in content.split(b"\n") if b'id="block-logs"' not in line)
-        results.append(hashlib.sha256(content).hexdigest())
-    return results
+    """What a program made of its inputs: digests of its outputs, or what it prints."""
+    if program is None:
+        return []
+    return [ending.out] if program.prints else list(results.digests(folder, program.outputs).values())
 
 
 class Place:
@@ -106,12 +95,12 @@ def judge(call, belief, ending, result, expected):
     faults = []
     if ending.hung:
         return ["hang"]
-    if ending.code < 0 or "it crashed; this is a bug" in ending.error:
+    if ending.code < 0 or results.CRASHED in ending.error:
         faults.append("crash")
     elif ending.code == 1:
         faults.append("exit 1")
     elif ending.code != 0:
-        if not MESSAGE.search(ending.error):
+        if not results.MESSAGE.search(ending.error):
             faults.append("message")
         outputs = [] if call.reads_only or programs.PROGRAMS[call.name].prints else result
         if any(entry is not None for entry in outputs):
