@@ -48,7 +48,7 @@ struct TiledScan {
 
 /// First pass: reads every block once, in parallel, and sorts its points into tiles. `advance(1)` is called
 /// per block. Errors: those of the reader (of the first faulty block), kScanNoPoints, kScanTooFewPoints,
-/// kScanExtent, kCannotWrite. The result does not depend on the number of threads.
+/// kScanExtent, kScanTooCoarse, kCannotWrite. The result does not depend on the number of threads.
 TiledScan tile_scan(const ScanReader& reader, const ScanSettings& settings, const IngestParams& params,
                     const Advance& advance = {});
 

@@ -101,6 +101,9 @@ ParameterTable ingest_parameters(IngestParams& params) {
 
 void run_ingest(StageRun& run, const IngestParams& params) {
   const std::unique_ptr<ScanReader> reader = open_scan(run.input("scan"));
+  for (const std::string& warning : reader->warnings()) {
+    run.warn(warning);
+  }
   std::vector<Vec3> stations = reader->stations();
   if (!run.input("stations").empty()) {
     stations = read_stations(run.input("stations"));

@@ -17,7 +17,7 @@ struct PlyColumns {
 };
 
 /// Errors: kScanFormat when x, y or z is missing, a list, or stands twice.
-PlyColumns find_columns(const PlyElement& vertex, const ScanFile& file);
+PlyColumns find_columns(const PlyElement& vertex, const ScanBytes& file);
 
 /// The i-th of x, y, z, nx, ny, nz of point `point`.
 inline void store_column(ScanBlock& block, int column, std::size_t point, double value) {

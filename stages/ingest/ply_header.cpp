@@ -41,7 +41,7 @@ constexpr std::array<TypeName, 16> kTypes{{{"char", PlyType::kInt8},
 /// Takes the header apart line by line; every error names the line.
 class HeaderParser {
  public:
-  explicit HeaderParser(const ScanFile& file) : file_(file) {}
+  explicit HeaderParser(const ScanBytes& file) : file_(file) {}
 
   /// Returns true at end_header.
   bool take(const std::string& text) {
@@ -142,7 +142,7 @@ class HeaderParser {
     header_.elements.back().properties.push_back(property);
   }
 
-  const ScanFile& file_;
+  const ScanBytes& file_;
   PlyHeader header_;
   bool has_format_ = false;
 };
@@ -165,17 +165,18 @@ std::uint64_t PlyElement::smallest_record() const {
                          });
 }
 
-PlyHeader read_ply_header(const ScanFile& file) {
+PlyHeader read_ply_header(const ScanBytes& file) {
   std::string text(static_cast<std::size_t>(std::min<std::uint64_t>(file.size(), kLargestHeader)), '\0');
   text.resize(file.read(0, text.data(), text.size()));
   HeaderParser parser(file);
+  const bool pairs = text.find('\n') == text.find('\r') + 1;  // else a '\n' behind a '\r' may be a point's
   std::size_t begin = 0;
   while (begin < text.size()) {
     const std::size_t end = std::min(text.find_first_of("\r\n", begin), text.size());
     if (end == text.size() && text.compare(begin, std::string::npos, "end_header") != 0) {
       break;  // a line cut in its middle says nothing
     }
-    const bool windows = text.compare(end, 2, "\r\n") == 0;
+    const bool windows = pairs && text.compare(end, 2, "\r\n") == 0;
     const bool done = parser.take(text.substr(begin, end - begin));
     begin = std::min(text.size(), end + (windows ? 2 : 1));
     if (done) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "stages/ingest/scan_file.h"
+#include "stages/ingest/scan_bytes.h"
 
 namespace roomcut {
 
@@ -40,6 +40,6 @@ struct PlyHeader {
 };
 
 /// Reads the header. Errors: kScanFormat (with the header line), kScanTruncated (no end_header).
-PlyHeader read_ply_header(const ScanFile& file);
+PlyHeader read_ply_header(const ScanBytes& file);
 
 }  // namespace roomcut

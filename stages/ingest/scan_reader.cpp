@@ -6,8 +6,10 @@
 #include <string_view>
 
 #include "common/errors/codes.h"
+#include "stages/ingest/pcd_header.h"
 #include "stages/ingest/scan_ply.h"
 #include "stages/ingest/scan_text.h"
+#include "stages/ingest/text_bytes.h"
 
 namespace roomcut {
 
@@ -18,18 +20,14 @@ struct ForeignFormat {
   const char* name;
 };
 
-constexpr std::array<ForeignFormat, 8> kForeign{{{"LASF", "a LAS/LAZ file"},
+constexpr const char* kConvert = "convert it to PLY or text, e.g. with CloudCompare or PDAL";
+constexpr std::array<ForeignFormat, 7> kForeign{{{"LASF", "a LAS/LAZ file"},
                                                  {"ASTM-E57", "an E57 file"},
-                                                 {"# .PCD", "a PCD file"},
                                                  {"\x89HDF", "an HDF5 file"},
                                                  {"PK\x03\x04", "a ZIP archive"},
                                                  {"\x1f\x8b", "a gzip archive"},
                                                  {"OFF", "an OFF mesh"},
                                                  {"solid ", "an STL mesh"}}};
-
-bool is_ply(std::string_view head) {
-  return head == "ply" || head.starts_with("ply\n") || head.starts_with("ply\r");
-}
 
 }  // namespace
 
@@ -44,18 +42,21 @@ void ScanBlock::resize(std::size_t points, bool normals) {
 
 std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& path) {
   auto file = std::make_shared<const ScanFile>(path);
+  auto text = std::make_shared<const TextBytes>(file);
   std::array<char, 16> bytes{};
-  const std::string_view head(bytes.data(), file->read(0, bytes.data(), bytes.size()));
+  const std::string_view head(bytes.data(), text->read(0, bytes.data(), bytes.size()));
   if (is_ply(head)) {
-    return open_ply(file);
+    return open_ply(file, text);
+  }
+  if (is_pcd(*text)) {
+    throw StageError(errors::kScanFormat, file->name(), "this is a PCD file", kConvert);
   }
   for (const ForeignFormat& foreign : kForeign) {
     if (head.starts_with(foreign.magic)) {
-      throw StageError(errors::kScanFormat, file->name(), std::string("this is ") + foreign.name,
-                       "convert it to PLY or text, e.g. with CloudCompare or PDAL");
+      throw StageError(errors::kScanFormat, file->name(), std::string("this is ") + foreign.name, kConvert);
     }
   }
-  return open_text(file);
+  return open_text(text);
 }
 
 }  // namespace roomcut

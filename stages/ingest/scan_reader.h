@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "common/geometry/line2.h"
@@ -32,13 +33,19 @@ class ScanReader {
   /// Distance between neighbouring representable coordinates at `magnitude`: 0 for text and doubles, the
   /// spacing of float32 numbers there otherwise [file units].
   virtual double resolution(double magnitude) const = 0;
-  /// Called with the number of points that all blocks gave: kScanTruncated when the file promised more.
+  /// Called with the number of points that all blocks gave: kScanTruncated when the file promised others.
   virtual void check_total(std::uint64_t /*points*/) const {}
+
+  /// What the user should know about the file although it could be read.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  void warn(const std::string& text) { warnings_.push_back(text); }
+
+ private:
+  std::vector<std::string> warnings_;
 };
 
-/// Finds out the format by the content, then by the name's ending. Errors: those of ScanFile, kScanFormat,
-/// kScanTruncated (more points promised than bytes are there; nothing is allocated on a promise),
-/// kScanNoPoints.
+/// Finds out the format by the content. Errors: those of ScanFile, kScanFormat, kScanTruncated (the header
+/// promises more points than there are, or fewer; nothing is allocated on a promise), kScanNoPoints.
 std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& path);
 
 }  // namespace roomcut

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kSniffed = 1 << 18;
 constexpr int kLongestHeader = 20;           // lines of names and remarks before the first point
 constexpr std::uint64_t kShortestPoint = 6;  // "0 0 0" and a line break
-constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+constexpr std::size_t kTooManyWords = 30;    // of the only line of a text
 
 using Words = std::vector<std::string_view>;
 
@@ -107,7 +107,7 @@ std::vector<int> fields_of_names(std::string_view line) {
 /// Goes through the first lines until the first point.
 class Sniffer {
  public:
-  explicit Sniffer(const ScanFile& file) : file_(file) {
+  explicit Sniffer(const ScanBytes& file) : file_(file) {
     layout_.fields = {0, 1, 2};
     layout_.end = file.size();
   }
@@ -139,6 +139,15 @@ class Sniffer {
   TextLayout finish() {
     layout_.normals = std::find(layout_.fields.begin(), layout_.fields.end(), 3) != layout_.fields.end();
     return layout_;
+  }
+  /// A line with nothing behind it in what was looked at.
+  void check_last_line(std::string_view line) const {
+    const Words words = split(line, " \t,;\r");
+    const auto numbers = std::count_if(words.begin(), words.end(), is_number);
+    if (words.size() > kTooManyWords && 2 * static_cast<std::size_t>(numbers) > words.size()) {
+      refuse("all points stand on one line: there is no line break",
+             "write the numbers of each point on a line of their own");
+    }
   }
   bool saw_header() const { return named_ || layout_.promised || comments_ > 0; }
   [[noreturn]] void refuse(const std::string& what,
@@ -198,7 +207,7 @@ class Sniffer {
     return true;
   }
 
-  const ScanFile& file_;
+  const ScanBytes& file_;
   TextLayout layout_;
   int header_lines_ = 0;
   int comments_ = 0;
@@ -215,7 +224,7 @@ bool is_comment_line(const char* begin, const char* end) {
          (*begin == '#' || *begin == '%' || (*begin == '/' && begin + 1 < end && begin[1] == '/'));
 }
 
-TextLayout sniff_text(const ScanFile& file) {
+TextLayout sniff_text(const ScanBytes& file) {
   std::string text(static_cast<std::size_t>(std::min<std::uint64_t>(file.size(), kSniffed)), '\0');
   text.resize(file.read(0, text.data(), text.size()));
   Sniffer sniffer(file);
@@ -223,9 +232,12 @@ TextLayout sniff_text(const ScanFile& file) {
     sniffer.refuse("binary data in no format that is known here",
                    "give PLY or text; convert other formats, e.g. with CloudCompare or PDAL");
   }
-  std::size_t begin = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
+  std::size_t begin = 0;
   while (begin < text.size()) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
+    if (text.find_first_not_of(" \t\r\n", end) == std::string::npos) {
+      sniffer.check_last_line(std::string_view(text).substr(begin, end - begin));
+    }
     if (sniffer.take(std::string_view(text).substr(begin, end - begin), begin)) {
       return sniffer.finish();
     }

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "stages/ingest/scan_file.h"
+#include "stages/ingest/scan_bytes.h"
 
 namespace roomcut {
 
@@ -26,7 +26,7 @@ struct TextLayout {
 /// Finds out separator, columns, header and count line from the first lines. Errors: kScanFormat (no point
 /// cloud, with the reason), kScanNoPoints (nothing but a header), kScanTruncated (a count line promises more
 /// than can be there).
-TextLayout sniff_text(const ScanFile& file);
+TextLayout sniff_text(const ScanBytes& file);
 
 /// Whether a line is a comment: it begins with #, // or %.
 bool is_comment_line(const char* begin, const char* end);

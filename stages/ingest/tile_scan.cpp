@@ -21,6 +21,7 @@ constexpr std::uint64_t kFewestPoints = 100;
 constexpr double kLargestFarShare = 0.1;  // more points beyond the window than this are no ghosts
 constexpr double kLargest_m = 2000;
 constexpr double kSmallest_m = 0.5;
+constexpr double kCoarsest_m = 0.11;  // steps of 6 cm still give walls, of 12 cm none
 
 /// The first block that has a finite point: what frame and quantisation are judged by.
 ScanBlock first_useful_block(const ScanReader& reader) {
@@ -132,6 +133,16 @@ void check_extent(const TiledScan& scan, std::uint64_t far, const ScanSettings& 
   }
 }
 
+/// Later stages would find no level or no wall, and not know why.
+void check_step(double step_m, const ScanSettings& settings) {
+  if (step_m > kCoarsest_m) {
+    throw StageError(errors::kScanTooCoarse, settings.name,
+                     "the coordinates are rounded to steps of " + std::to_string(std::lround(1000 * step_m)) +
+                         " mm, too coarse for a model: so far from the origin 32-bit numbers are no finer",
+                     "export the scan with 64-bit coordinates (double), or with an offset subtracted before");
+  }
+}
+
 /// Few tiles may hold a scan that is tiny, because its unit is wrong.
 void check_size(const TiledScan& scan, const ScanSettings& settings) {
   if (scan.tiles.size() > 4) {
@@ -167,6 +178,7 @@ TiledScan tile_scan(const ScanReader& reader, const ScanSettings& settings, cons
     const ScanBlock sample = first_useful_block(reader);
     scan.frame = choose_frame(sample, settings.unit, settings.up, params.voxel_edge_m);
     scan.step_m = quantisation_step(sample, scan.frame, reader);
+    check_step(scan.step_m, settings);
   }
   scan.store = std::make_unique<TileStore>(settings.scratch_folder, reader.blocks(), settings.memory_bytes,
                                            reader.has_normals());

@@ -246,6 +246,32 @@ TEST(TileScan, refuses_extents_that_only_a_wrong_unit_explains) {
   }
 }
 
+/// As if the coordinates had been read from float32 numbers.
+class CoarseScan : public MemoryScan {
+ public:
+  CoarseScan(const std::vector<Vec3>& points, double step) : MemoryScan(points), step_(step) {}
+  double resolution(double /*magnitude*/) const override { return step_; }
+
+ private:
+  double step_;
+};
+
+TEST(TileScan, refuses_coordinates_too_coarse_for_a_model_and_names_their_steps) {
+  for (const double step : {0.0625, 0.125, 0.25, 0.5}) {
+    std::vector<Vec3> rounded = Room().points();
+    for (Vec3& point : rounded) {
+      point.x() = std::round(point.x() / step) * step + 5e5;
+      point.y() = std::round(point.y() / step) * step + 5.5e6;
+    }
+    const std::string code = step < 0.1 ? "" : "C10";
+    std::string text;
+    EXPECT_EQ(code_of([&] { make_cloud(MemoryScan(rounded)); }, &text), code) << step;
+    EXPECT_EQ(code_of([&] { make_cloud(CoarseScan(Room().points(), step)); }), code) << step;
+    EXPECT_EQ(text.find(std::to_string(std::lround(1000 * step)) + " mm") == std::string::npos, code.empty())
+        << text;
+  }
+}
+
 TEST(TileScan, lets_flat_scans_pass_for_the_stages_that_know_what_is_missing) {
   std::vector<Vec3> floor;
   floor.reserve(10'000);
