@@ -9,6 +9,7 @@
 #include "common/errors/codes.h"
 #include "stages/ingest/ingest.h"
 #include "stages/ingest/scan_stations.h"
+#include "stages/ingest/text_columns.h"
 
 namespace roomcut {
 
@@ -82,6 +83,7 @@ StageInfo ingest_info() {
   info.options = {
       {"up", "z", "The scan's up axis", {"x", "y", "z", "-x", "-y", "-z"}},
       {"unit", "m", "The scan's length unit", {"m", "mm", "cm", "ft"}},
+      {"columns", "", "What each column of a text is, in order: x,y,z,nx,ny,nz, '-' for others", {}},
       {"memory-mib", "256", "Points held in memory between the passes; more go to a scratch file", {}},
       {"scan-sha256", "", "Digest of the scan's bytes, when it is known already", {}}};
   return info;
@@ -100,7 +102,11 @@ ParameterTable ingest_parameters(IngestParams& params) {
 }
 
 void run_ingest(StageRun& run, const IngestParams& params) {
-  const std::unique_ptr<ScanReader> reader = open_scan(run.input("scan"));
+  const std::unique_ptr<ScanReader> reader =
+      open_scan(run.input("scan"), parse_columns(run.option("columns")));
+  for (const std::string& note : reader->notes()) {
+    run.note(note);
+  }
   for (const std::string& warning : reader->warnings()) {
     run.warn(warning);
   }

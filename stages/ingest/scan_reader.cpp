@@ -40,13 +40,17 @@ void ScanBlock::resize(std::size_t points, bool normals) {
   }
 }
 
-std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& path) {
+std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& path, const std::vector<int>& columns) {
   auto file = std::make_shared<const ScanFile>(path);
   auto text = std::make_shared<const TextBytes>(file);
   std::array<char, 16> bytes{};
   const std::string_view head(bytes.data(), text->read(0, bytes.data(), bytes.size()));
   if (is_ply(head)) {
-    return open_ply(file, text);
+    std::unique_ptr<ScanReader> reader = open_ply(file, text);
+    if (!columns.empty()) {
+      reader->warn("--columns is for text; this is a PLY, whose header names its columns");
+    }
+    return reader;
   }
   if (is_pcd(*text)) {
     throw StageError(errors::kScanFormat, file->name(), "this is a PCD file", kConvert);
@@ -56,7 +60,7 @@ std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& path) {
       throw StageError(errors::kScanFormat, file->name(), std::string("this is ") + foreign.name, kConvert);
     }
   }
-  return open_text(text);
+  return open_text(text, columns);
 }
 
 }  // namespace roomcut

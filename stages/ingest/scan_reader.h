@@ -39,13 +39,20 @@ class ScanReader {
   /// What the user should know about the file although it could be read.
   const std::vector<std::string>& warnings() const { return warnings_; }
   void warn(const std::string& text) { warnings_.push_back(text); }
+  /// How the file was understood.
+  const std::vector<std::string>& notes() const { return notes_; }
+  void note(const std::string& text) { notes_.push_back(text); }
 
  private:
   std::vector<std::string> warnings_;
+  std::vector<std::string> notes_;
 };
 
 /// Finds out the format by the content. Errors: those of ScanFile, kScanFormat, kScanTruncated (the header
-/// promises more points than there are, or fewer; nothing is allocated on a promise), kScanNoPoints.
-std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& path);
+/// promises more points than there are, or fewer; nothing is allocated on a promise), kScanNoPoints; of text,
+/// kScanColumns. `columns`: what each column of a text is, as the user says (parse_columns()); empty: to be
+/// found out.
+std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& path,
+                                      const std::vector<int>& columns = {});
 
 }  // namespace roomcut

@@ -147,8 +147,12 @@ class TextReader : public ScanReader {
 
 }  // namespace
 
-std::unique_ptr<ScanReader> open_text(const std::shared_ptr<const ScanBytes>& text) {
-  return text_reader(text, sniff_text(*text), {});
+std::unique_ptr<ScanReader> open_text(const std::shared_ptr<const ScanBytes>& text,
+                                      const std::vector<int>& columns) {
+  const TextLayout layout = sniff_text(*text, columns);
+  std::unique_ptr<ScanReader> reader = text_reader(text, layout, {});
+  reader->note(layout.description);
+  return reader;
 }
 
 std::unique_ptr<ScanReader> text_reader(const std::shared_ptr<const ScanBytes>& text,

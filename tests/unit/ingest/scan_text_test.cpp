@@ -144,14 +144,12 @@ TEST_F(ScanText, names_the_line_that_is_no_point_in_any_block) {
   EXPECT_NE(message.find("1.25 oops 3"), std::string::npos) << message;
   EXPECT_EQ(code_of_scan(file("short.xyz", "1 2 3\n1 2\n")), "C08");
   EXPECT_EQ(code_of_scan(file("glued.xyz", "1 2 3\n1 2 3x\n")), "C08");
-  EXPECT_EQ(code_of_scan(file("cut.csv", "1,2,3\n4,5,")), "C08");
+  EXPECT_EQ(code_of_scan(file("cut.csv", "1,2,3\n4,5")), "C08");
 }
 
 TEST_F(ScanText, refuses_what_is_no_point_cloud) {
   EXPECT_EQ(code_of_scan(file("letter.txt", "Dear Sir or Madam,\nplease find enclosed\nnothing.\n")), "C04");
   EXPECT_EQ(code_of_scan(file("two.txt", "1 2\n3 4\n")), "C04");
-  EXPECT_EQ(code_of_scan(file("comma.csv", "1,5;2,25;3,0\n1,5;2,25;3,0\n")), "C04");
-  EXPECT_EQ(code_of_scan(file("comma.txt", "1,5 2,25 3,0\n")), "C04");
   EXPECT_EQ(code_of_scan(file("grid.asc", "ncols 4\nnrows 4\nxllcorner 0\n1 2 3 4\n")), "C04");
   EXPECT_EQ(code_of_scan(file("scan.ptx", "2\n2\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n")), "C04");
   EXPECT_EQ(code_of_scan(file("binary.dat", std::string("ab\0cd", 5))), "C04");
