@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <limits>
 #include <string>
 
 #include "common/errors/codes.h"
@@ -12,6 +10,7 @@
 #include "stages/ingest/ply_columns.h"
 #include "stages/ingest/ply_counts.h"
 #include "stages/ingest/scan_ply_ascii.h"
+#include "stages/ingest/scan_records.h"
 #include "stages/ingest/scan_stations.h"
 
 namespace roomcut {
@@ -24,12 +23,12 @@ constexpr std::uint64_t kPointsPerBlock = 1 << 16;
 /// end of file.
 template <class Take>
 bool walk_record(const PlyElement& element, bool swap, ByteCursor& cursor, Take&& take) {
-  const auto value_of = [swap](PlyType type, const unsigned char* bytes) {
+  const auto value_of = [swap](ScalarType type, const unsigned char* bytes) {
     return with_loader(type, swap, [&](auto load) { return static_cast<double>(load(bytes)); });
   };
   for (std::size_t i = 0; i < element.properties.size(); ++i) {
     const PlyProperty& property = element.properties[i];
-    const PlyType type = property.is_list ? property.count_type : property.type;
+    const ScalarType type = property.is_list ? property.count_type : property.type;
     const unsigned char* bytes = cursor.peek(bytes_of(type));
     if (bytes == nullptr) {
       return false;
@@ -84,117 +83,67 @@ std::uint64_t skip_elements(const ScanBytes& file, const PlyHeader& header) {
                          });
 }
 
-/// What both kinds of binary body share.
-class BinaryPly : public ScanReader {
+/// What the file holds behind the vertices, from `end` on, compared with what the header promises there; a
+/// warning or "". `held`: how many vertices there would be if nothing else followed. Errors: kScanTruncated.
+std::string check_rest(const ScanBytes& file, const PlyHeader& header, std::uint64_t end,
+                       std::uint64_t held) {
+  const PlyElement& vertex = header.elements[header.vertex];
+  if (elements_after_vertices(header) == 0 && held > vertex.count) {
+    too_many(file, vertex, std::to_string(held));
+  }
+  std::string warning;
+  const std::uint64_t rest = end_of_elements(
+      file, header, header.vertex + 1, header.elements.size(), end,
+      [&](const PlyElement& element, const std::string& /*found*/) {
+        warning = "the elements '" + element.name + "' behind the vertices are cut off; they were not needed";
+        return file.size();
+      });
+  const std::uint64_t more = file.size() - rest;
+  if (more >= std::max<std::uint64_t>(1, vertex.smallest_record())) {
+    too_many(file, vertex, std::to_string(more) + " bytes more than it promises in all");
+  }
+  return more == 0
+             ? warning
+             : std::to_string(more) + " bytes behind the last element that the header promises were not read";
+}
+
+/// Records of one size: block i lies at a known place.
+std::unique_ptr<ScanReader> fixed_ply(const std::shared_ptr<const ScanBytes>& file, const PlyHeader& header,
+                                      std::uint64_t first) {
+  const PlyElement& vertex = header.elements[header.vertex];
+  const PlyColumns columns = find_columns(vertex, *file);
+  const std::uint64_t record = vertex.smallest_record();
+  const std::uint64_t held = (file->size() - first) / record;
+  if (held < vertex.count) {
+    too_few(*file, vertex, std::to_string(held));
+  }
+  std::vector<std::uint64_t> offsets{first};
+  for (const PlyProperty& property : vertex.properties) {
+    offsets.push_back(offsets.back() + bytes_of(property.type));
+  }
+  RecordLayout layout{vertex.count, {}, columns.normals, swaps(header)};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(columns.count()); ++i) {
+    const std::size_t property = columns.property[i];
+    layout.columns[i] = {offsets[property], static_cast<std::size_t>(record),
+                         vertex.properties[property].type};
+  }
+  const std::string warning = check_rest(*file, header, first + vertex.count * record, held);
+  std::unique_ptr<ScanReader> reader = record_reader(file, layout, stations_of_comments(header.comments));
+  if (!warning.empty()) {
+    reader->warn(warning);
+  }
+  return reader;
+}
+
+/// Vertex records with lists in them: the beginning of each block is found in one walk.
+class RaggedPly : public ScanReader {
  public:
-  BinaryPly(std::shared_ptr<const ScanBytes> file, const PlyHeader& header)
+  RaggedPly(std::shared_ptr<const ScanBytes> file, const PlyHeader& header, std::uint64_t first)
       : file_(std::move(file)),
         vertex_(header.elements[header.vertex]),
         columns_(find_columns(vertex_, *file_)),
         swap_(swaps(header)),
-        stations_(stations_of_comments(header.comments)) {}
-
-  std::size_t blocks() const override {
-    return static_cast<std::size_t>((vertex_.count + kPointsPerBlock - 1) / kPointsPerBlock);
-  }
-  bool has_normals() const override { return columns_.normals; }
-  const std::vector<Vec3>& stations() const override { return stations_; }
-  double resolution(double magnitude) const override {
-    if (vertex_.properties[columns_.property[0]].type != PlyType::kFloat32) {
-      return 0;
-    }
-    const auto value = static_cast<float>(std::abs(magnitude));
-    return std::nextafter(value, std::numeric_limits<float>::infinity()) - value;
-  }
-
- protected:
-  std::size_t points_in(std::size_t index) const {
-    return static_cast<std::size_t>(std::min(kPointsPerBlock, vertex_.count - index * kPointsPerBlock));
-  }
-
-  /// Compares what lies behind the vertices, from `end` on, with what the header promises there. `held`:
-  /// how many vertices the file would hold if nothing else followed.
-  void check_rest(const PlyHeader& header, std::uint64_t end, std::uint64_t held) {
-    const std::uint64_t rest = end_of_elements(
-        *file_, header, header.vertex + 1, header.elements.size(), end,
-        [&](const PlyElement& element, const std::string& /*found*/) {
-          warn("the elements '" + element.name + "' behind the vertices are cut off; they were not needed");
-          return file_->size();
-        });
-    const std::uint64_t more = file_->size() - rest;
-    if (elements_after_vertices(header) == 0 && held > vertex_.count) {
-      too_many(*file_, vertex_, std::to_string(held));
-    }
-    if (more >= std::max<std::uint64_t>(1, vertex_.smallest_record())) {
-      too_many(*file_, vertex_, std::to_string(more) + " bytes more than it promises in all");
-    }
-    if (more > 0) {
-      warn(std::to_string(more) + " bytes behind the last element that the header promises were not read");
-    }
-  }
-
-  std::shared_ptr<const ScanBytes> file_;
-  PlyElement vertex_;
-  PlyColumns columns_;
-  bool swap_;
-  std::vector<Vec3> stations_;
-};
-
-/// Records of one size: block i lies at a known place.
-class FixedPly : public BinaryPly {
- public:
-  FixedPly(std::shared_ptr<const ScanBytes> file, const PlyHeader& header, std::uint64_t first)
-      : BinaryPly(std::move(file), header), first_(first), record_(vertex_.smallest_record()) {
-    const std::uint64_t held = record_ == 0 ? 0 : (file_->size() - first_) / record_;
-    if (held < vertex_.count) {
-      too_few(*file_, vertex_, std::to_string(held));
-    }
-    check_rest(header, first_ + vertex_.count * record_, held);
-    std::size_t offset = 0;
-    for (const PlyProperty& property : vertex_.properties) {
-      offsets_.push_back(offset);
-      offset += bytes_of(property.type);
-    }
-  }
-
-  void read(std::size_t index, ScanBlock& block) const override {
-    const std::size_t points = points_in(index);
-    thread_local std::vector<unsigned char> bytes;
-    bytes.resize(points * record_);
-    file_->read(first_ + index * kPointsPerBlock * record_, bytes.data(), bytes.size());
-    block.resize(points, columns_.normals);
-    const std::array<double*, 3> positions{block.x.data(), block.y.data(), block.z.data()};
-    const std::array<float*, 3> normals{block.nx.data(), block.ny.data(), block.nz.data()};
-    for (std::size_t i = 0; i < 3; ++i) {
-      decode(bytes.data(), i, points, positions[i]);
-      if (columns_.normals) {
-        decode(bytes.data(), i + 3, points, normals[i]);
-      }
-    }
-  }
-
- private:
-  template <class Out>
-  void decode(const unsigned char* bytes, std::size_t column, std::size_t points, Out* out) const {
-    const std::size_t property = columns_.property[column];
-    const unsigned char* first = bytes + offsets_[property];
-    with_loader(vertex_.properties[property].type, swap_, [&](auto load) {
-      for (std::size_t i = 0; i < points; ++i) {
-        out[i] = static_cast<Out>(load(first + i * record_));
-      }
-    });
-  }
-
-  std::uint64_t first_;
-  std::size_t record_;
-  std::vector<std::size_t> offsets_;
-};
-
-/// Vertex records with lists in them: the beginning of each block is found in one walk.
-class RaggedPly : public BinaryPly {
- public:
-  RaggedPly(std::shared_ptr<const ScanBytes> file, const PlyHeader& header, std::uint64_t first)
-      : BinaryPly(std::move(file), header) {
+        stations_(stations_of_comments(header.comments)) {
     ByteCursor cursor(*file_, first);
     const auto take_one = [&] {
       return walk_record(vertex_, swap_, cursor, [](std::size_t, double) {}) &&
@@ -213,11 +162,21 @@ class RaggedPly : public BinaryPly {
     while (elements_after_vertices(header) == 0 && take_one()) {
       ++held;
     }
-    check_rest(header, end, held);
+    if (const std::string warning = check_rest(*file_, header, end, held); !warning.empty()) {
+      warn(warning);
+    }
+  }
+
+  std::size_t blocks() const override { return begins_.size(); }
+  bool has_normals() const override { return columns_.normals; }
+  const std::vector<Vec3>& stations() const override { return stations_; }
+  double resolution(double magnitude) const override {
+    return spacing_of(vertex_.properties[columns_.property[0]].type, magnitude);
   }
 
   void read(std::size_t index, ScanBlock& block) const override {
-    const std::size_t points = points_in(index);
+    const auto points =
+        static_cast<std::size_t>(std::min(kPointsPerBlock, vertex_.count - index * kPointsPerBlock));
     block.resize(points, columns_.normals);
     ByteCursor cursor(*file_, begins_[index]);
     for (std::size_t point = 0; point < points; ++point) {
@@ -232,6 +191,11 @@ class RaggedPly : public BinaryPly {
   }
 
  private:
+  std::shared_ptr<const ScanBytes> file_;
+  PlyElement vertex_;
+  PlyColumns columns_;
+  bool swap_;
+  std::vector<Vec3> stations_;
   std::vector<std::uint64_t> begins_;
 };
 
@@ -266,7 +230,7 @@ std::unique_ptr<ScanReader> open_ply(const std::shared_ptr<const ScanBytes>& fil
   if (vertex.has_list()) {
     return std::make_unique<RaggedPly>(file, header, first);
   }
-  return std::make_unique<FixedPly>(file, header, first);
+  return fixed_ply(file, header, first);
 }
 
 }  // namespace roomcut

@@ -16,8 +16,17 @@ namespace roomcut {
 struct ScanBlock {
   std::vector<double> x, y, z;
   std::vector<float> nx, ny, nz;  ///< normals; empty when the file has none
+  std::uint64_t no_returns = 0;   ///< points of the block that are none: beams that met nothing
   std::size_t size() const { return x.size(); }
   void resize(std::size_t points, bool normals);
+  /// Takes out points at exactly 0 0 0, which is how scanners write a beam without return, and counts them.
+  void drop_no_returns();
+};
+
+/// What `open_scan` may be told.
+struct ScanOptions {
+  std::vector<int> columns;  ///< what each column of a text is (parse_columns()); empty: to be found out
+  std::filesystem::path scratch_folder;  ///< for what has to be decoded first
 };
 
 /// A scan cut into blocks that can be read in any order and by several threads. Block order is file order.
@@ -50,9 +59,7 @@ class ScanReader {
 
 /// Finds out the format by the content. Errors: those of ScanFile, kScanFormat, kScanTruncated (the header
 /// promises more points than there are, or fewer; nothing is allocated on a promise), kScanNoPoints; of text,
-/// kScanColumns. `columns`: what each column of a text is, as the user says (parse_columns()); empty: to be
-/// found out.
-std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& path,
-                                      const std::vector<int>& columns = {});
+/// kScanColumns.
+std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& path, const ScanOptions& options = {});
 
 }  // namespace roomcut

@@ -193,8 +193,8 @@ class Sniffer {
 
   void take_count(std::string_view word) {
     if (layout_.promised) {
-      refuse("two counts at the beginning: this looks like a PTX file",
-             "convert it to PLY or text, e.g. with CloudCompare");
+      refuse("two counts at the beginning, as in a PTX file, but not the ten lines of its header",
+             "export the scan again");
     }
     std::uint64_t count = 0;
     std::from_chars(word.data(), word.data() + word.size(), count);

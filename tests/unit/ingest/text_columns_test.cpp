@@ -97,7 +97,7 @@ TEST_F(TextColumns, are_refused_with_all_that_is_known_when_they_are_not_certain
 
 TEST_F(TextColumns, are_those_that_the_user_names) {
   const auto read = [this](const std::string& text, const std::string& columns) {
-    return open_scan(file("g.csv", text), parse_columns(columns));
+    return open_scan(file("g.csv", text), {parse_columns(columns), folder()});
   };
   expect_one_to_six(*read("a,b,c\n2.5,1.5,.25\n-5,4,6\n", "y,x,z"), "other names");
   expect_one_to_six(*read("7.5 1.5 2.5 .25 9\n7.25 4 -5 6 9\n", "time x y z"), "no names");

@@ -192,6 +192,20 @@ TEST(TileScan, drops_and_counts_bad_points) {
   expect_same(cloud, make_cloud(MemoryScan(room.points())));
 }
 
+TEST(TileScan, drops_beams_without_return_also_when_they_are_half_of_a_scan_far_from_the_origin) {
+  std::vector<Vec3> points;
+  for (const Vec3& point : Room().points()) {
+    points.push_back(point + Vec3(836'000, 818'000, 0));
+    points.emplace_back(0, 0, 0);
+  }
+  const MadeCloud cloud = make_cloud(MemoryScan(points));
+  EXPECT_EQ(cloud.counts.read, points.size());
+  EXPECT_EQ(cloud.counts.no_returns, points.size() / 2);
+  EXPECT_EQ(cloud.counts.kept, points.size() / 2);
+  EXPECT_EQ(cloud.counts.ghosts, 0U);
+  EXPECT_EQ(code_of([] { make_cloud(MemoryScan(std::vector<Vec3>(500, Vec3(0, 0, 0)))); }), "C06");
+}
+
 TEST(TileScan, is_not_harmed_by_duplicate_points) {
   Room room;
   std::vector<Vec3> points = room.points();
