@@ -42,6 +42,7 @@ struct StageRun::State {
   std::mutex mutex;  ///< guards what follows
   std::vector<Choice> choices;
   std::vector<Count> counts;
+  std::vector<std::string> notes;
   std::vector<std::string> warnings;
 
   std::chrono::system_clock::time_point started = std::chrono::system_clock::now();
