@@ -166,7 +166,7 @@ asked_of() {
 # Every stage prints its resolved parameters; asked only when pipeline.yaml, a program or an answer changed: params/.asked holds them all.
 record_params() {
   if { asked_of && cat $answers; } 2> /dev/null | cmp -s - params/.asked && config_is_recorded; then return; fi
-  rm -f params/.asked params/.asked.new
+  rm -f params/.asked
   { printf '' > params/.asked.new; } 2> /dev/null || cannot_write "$PWD/params" "it cannot be written"
   # A program that was written in this very moment may be written again unseen: its answers are not kept.
   moment=$(stat -c %.9Z params/.asked.new)
@@ -174,19 +174,16 @@ record_params() {
   newest=$(cd "$BIN" && stat -L -c %.9Z $stages | sort -n | tail -n 1)
   settled=
   if [ "$newest" \< "$moment" ]; then settled=yes; fi
-  rm -rf params/.new
-  mkdir params/.new || cannot_write "$PWD/params" "it cannot be written"
+  mkdir params/.new 2> /dev/null || cannot_write "$PWD/params" "it cannot be written"
   { [ -n "$settled" ] && take_known_params; } || ask_params
-  for stage in $stages; do
-    if [ -f "params/$stage.json" ] && cmp -s "params/.new/$stage.json" "params/$stage.json"; then rm -f "params/.new/$stage.json"; fi
-  done
-  rmdir params/.new 2> /dev/null || { mv -f params/.new/*.json params/ && rmdir params/.new; }
+  { mv -f params/.new/*.json params/ && rmdir params/.new; } 2> /dev/null || cannot_write "$PWD/params" "it cannot be written"
   record_config
   if [ -n "$settled" ]; then
     { cat $answers >> params/.asked.new && mv -f params/.asked.new params/.asked; } 2> /dev/null ||
       cannot_write "$PWD/params/.asked" "it cannot be written"
+  else
+    rm -f params/.asked.new
   fi
-  rm -f params/.asked.new
 }
 
 # The answers that the same programs gave to the same pipeline.yaml in another work folder. From inside the folder that holds them:
