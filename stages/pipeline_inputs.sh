@@ -22,13 +22,13 @@ holds() {
 # Writes $2 and a newline to $1 when it differs.
 record() {
   if holds "$1" "$2"; then return; fi
-  { printf '%s\n' "$2" > "$1.new" && mv -f "$1.new" "$1"; } 2> /dev/null || cannot_write "$PWD/$1" "it cannot be written"
+  { printf '%s\n' "$2" > "$1.new" && mv -f "$1.new" "$1"; } 2> /dev/null || { rm -f "$1.new"; cannot_write "$PWD/$1" "it cannot be written"; }
 }
 
 # Copies $2 to $1 when it differs.
 record_file() {
   if [ -f "$1" ] && cmp -s "$2" "$1"; then return; fi
-  { cat "$2" > "$1.new" && mv -f "$1.new" "$1"; } 2> /dev/null || cannot_write "$PWD/$1" "it cannot be written"
+  { cat "$2" > "$1.new" && mv -f "$1.new" "$1"; } 2> /dev/null || { rm -f "$1.new"; cannot_write "$PWD/$1" "it cannot be written"; }
 }
 
 # The scan must be a file, or be gone while what was made from it is here; otherwise nothing is begun or made.
@@ -170,7 +170,7 @@ record_params() {
   { printf '' > params/.asked.new; } 2> /dev/null || cannot_write "$PWD/params" "it cannot be written"
   # A program that was written in this very moment may be written again unseen: its answers are not kept.
   moment=$(stat -c %.9Z params/.asked.new)
-  { asked_of > params/.asked.new; } 2> /dev/null || cannot_write "$PWD/params" "it cannot be written"
+  { asked_of > params/.asked.new; } 2> /dev/null || { rm -f params/.asked.new; cannot_write "$PWD/params" "it cannot be written"; }
   newest=$(cd "$BIN" && stat -L -c %.9Z $stages | sort -n | tail -n 1)
   settled=
   if [ "$newest" \< "$moment" ]; then settled=yes; fi
@@ -180,7 +180,7 @@ record_params() {
   record_config
   if [ -n "$settled" ]; then
     { cat $answers >> params/.asked.new && mv -f params/.asked.new params/.asked; } 2> /dev/null ||
-      cannot_write "$PWD/params/.asked" "it cannot be written"
+      { rm -f params/.asked.new; cannot_write "$PWD/params/.asked" "it cannot be written"; }
   else
     rm -f params/.asked.new
   fi
