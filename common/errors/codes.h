@@ -69,6 +69,7 @@ inline constexpr ErrorCode kTooComplex{"N07", ExitCode::kNoResult};   ///< a cou
 inline constexpr ErrorCode kMeshUnreadable{"M01", ExitCode::kInput};
 inline constexpr ErrorCode kMeshFormat{"M02", ExitCode::kInput};
 inline constexpr ErrorCode kMeshNotClosed{"M03", ExitCode::kInput};
+inline constexpr ErrorCode kMeshesUnlike{"M04", ExitCode::kInput};  ///< of different unit, size or place
 inline constexpr ErrorCode kSceneUnreadable{"Y01", ExitCode::kInput};
 inline constexpr ErrorCode kSceneInvalid{"Y02", ExitCode::kInput};
 
