@@ -53,7 +53,9 @@ void forget_temporary(const fs::path& path) {
 }
 
 [[noreturn]] void cannot_write(const fs::path& path, const std::string& action, int why) {
-  std::string hint;
+  std::string hint =
+      "see whether the disk is sound, or choose another folder with WORK= or --work; nothing of before is "
+      "lost";
   if (why == ENOSPC || why == EDQUOT || why == EFBIG) {
     hint = "free some space, or choose another folder with WORK= or --work; nothing of before is lost";
   } else if (why == EACCES || why == EPERM || why == EROFS) {
