@@ -72,6 +72,7 @@ extern "C" {
 void* __real_malloc(std::size_t size);
 void* __real_calloc(std::size_t count, std::size_t size);
 void* __real_realloc(void* old, std::size_t size);
+char* __real_strdup(const char* text);
 
 /// libhdf5 does not survive that one of its small requests is refused: it calls exit(), or goes on with a
 /// null pointer. The linker leads the calls of archives here (CMakeLists.txt).
@@ -83,6 +84,9 @@ void* __wrap_calloc(std::size_t count, std::size_t size) {
 }
 void* __wrap_realloc(void* old, std::size_t size) {
   return or_end(__real_realloc(old, size), size);
+}
+char* __wrap_strdup(const char* text) {
+  return static_cast<char*>(or_end(__real_strdup(text), 1));
 }
 }
 // NOLINTEND(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp,readability-identifier-naming)
