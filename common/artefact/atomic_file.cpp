@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/artefact/atomic_file.h"
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/stat.h>
@@ -12,6 +13,7 @@
 #include <charconv>
 #include <cstring>
 #include <fstream>
+#include <memory>
 #include <system_error>
 
 #include "common/artefact/unsynced_file.h"
@@ -91,11 +93,13 @@ bool is_dead(pid_t pid) {
 }
 
 void remove_left_overs(const fs::path& folder, const std::string& name) {
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-    const pid_t pid = writer_of(entry.path().filename().string(), name);
+  // Not std::filesystem::directory_iterator, which ends the process when memory runs out.
+  const std::unique_ptr<DIR, int (*)(DIR*)> entries(::opendir(folder.c_str()), ::closedir);
+  while (const dirent* const entry = entries ? ::readdir(entries.get()) : nullptr) {
+    const pid_t pid = writer_of(entry->d_name, name);
     if (pid > 0 && pid != ::getpid() && is_dead(pid)) {
-      fs::remove(entry.path(), ignored);
+      std::error_code ignored;
+      fs::remove(folder / entry->d_name, ignored);
     }
   }
 }
