@@ -35,6 +35,8 @@ class Handle {
   hid_t get() const { return id_; }
   bool valid() const { return id_ >= 0; }
   void reset();
+  /// Like reset(); false when the library could not close it. It is not tried again.
+  bool try_close();
 
  private:
   hid_t id_ = -1;

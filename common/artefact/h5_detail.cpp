@@ -2,6 +2,7 @@
 #include <array>
 #include <bit>
 #include <charconv>
+#include <utility>
 
 #include "common/artefact/h5_detail.h"
 
@@ -21,10 +22,12 @@ Handle& Handle::operator=(Handle&& other) noexcept {
 }
 
 void Handle::reset() {
-  if (id_ >= 0 && close_ != nullptr) {
-    close_(id_);
-  }
-  id_ = -1;
+  try_close();
+}
+
+bool Handle::try_close() {
+  const hid_t id = std::exchange(id_, -1);
+  return id < 0 || close_ == nullptr || close_(id) >= 0;
 }
 
 #define ROOMCUT_H5_TYPE(T, FILE_TYPE, MEMORY_TYPE) \

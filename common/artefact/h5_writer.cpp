@@ -254,6 +254,10 @@ bool H5Writer::commit() {
     state_->digest.dataset(name, stream.type, stream.shape,
                            stream.by_checksums ? h5::kByChecksums : stream.sha.hex());
   }
+  for (auto& [name, stream] : state_->streams) {
+    // What the library has held back is written now; closing a dataset does not tell what could not be.
+    state_->require(H5Dflush(stream.dataset.get()) >= 0, name);
+  }
   state_->streams.clear();
   const std::string payload = state_->digest.hex();
   const Provenance& provenance = state_->provenance;
@@ -274,7 +278,7 @@ bool H5Writer::commit() {
   // Flushed first: a file that cannot be flushed cannot be closed either, and then the flush's reason is
   // lost.
   state_->require(H5Fflush(state_->file.get(), H5F_SCOPE_LOCAL) >= 0, "/");
-  state_->file.reset();
+  state_->require(state_->file.try_close(), "/");
   const bool same = stated_payload(state_->atomic.final_path()) == payload;
   state_->atomic.commit(same);
   remember_artefact(state_->atomic.final_path(),
