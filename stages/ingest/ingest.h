@@ -19,6 +19,7 @@ namespace roomcut {
 struct IngestCounts {
   std::uint64_t read = 0;
   std::uint64_t no_returns = 0;  ///< dropped: exactly 0 0 0, a beam that met nothing
+  std::uint64_t invalid = 0;     ///< dropped: marked as invalid or withheld in the file
   std::uint64_t not_finite = 0;  ///< dropped: NaN or infinite
   std::uint64_t ghosts = 0;      ///< dropped: far from the building, in sparse cells
   std::uint64_t kept = 0;

@@ -28,6 +28,12 @@ std::future<std::string> start_digest(const StageRun& run) {
   return std::async(std::launch::async, [path = run.input("scan")] { return sha256_of_file(path); });
 }
 
+/// The build folder: this program lies in its bin/.
+std::filesystem::path program_folder() {
+  std::error_code unknown;
+  return std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path().parent_path();
+}
+
 std::uint64_t memory_bytes(const StageRun& run) {
   const std::string& text = run.option("memory-mib");
   std::uint64_t mib = 0;
@@ -44,6 +50,7 @@ void report(StageRun& run, const TiledScan& scan, const SurfaceSummary& summary,
   run.count("points read", static_cast<double>(counts.read));
   run.count("kept", static_cast<double>(counts.kept));
   run.count("no return", static_cast<double>(counts.no_returns));
+  run.count("invalid", static_cast<double>(counts.invalid));
   run.count("not finite", static_cast<double>(counts.not_finite));
   run.count("ghosts", static_cast<double>(counts.ghosts));
   run.count("noise", 1000 * header.noise_m, "mm");
@@ -52,6 +59,9 @@ void report(StageRun& run, const TiledScan& scan, const SurfaceSummary& summary,
   if (counts.no_returns > 0) {
     run.warn(std::to_string(counts.no_returns) +
              " points are exactly 0 0 0, beams without return, and were dropped");
+  }
+  if (counts.invalid > 0) {
+    run.warn(std::to_string(counts.invalid) + " points are marked as invalid in the file and were dropped");
   }
   if (counts.not_finite > 0) {
     run.warn(std::to_string(counts.not_finite) + " points with NaN or infinite coordinates were dropped");
@@ -80,7 +90,7 @@ StageInfo ingest_info() {
   info.revision = 3;
   info.summary = "Reads a raw scan; finds surface class, azimuth, noise and density from sums in voxels.";
   info.inputs = {
-      {"scan", "", "The scan: PLY, PCD, PTX or text (.xyz .txt .csv .pts .asc)"},
+      {"scan", "", "The scan: PLY, E57, LAS, LAZ, PCD, PTX or text (.xyz .txt .csv .pts .asc)"},
       {"stations", "", "Scanner positions as text, x y z on each line, in the scan's unit and axes", true}};
   info.inputs[0].by_bytes = true;
   info.inputs[1].by_bytes = true;
@@ -111,7 +121,7 @@ void run_ingest(StageRun& run, const IngestParams& params) {
   const std::filesystem::path folder =
       output.has_parent_path() ? output.parent_path() : std::filesystem::path(".");
   const std::unique_ptr<ScanReader> reader =
-      open_scan(run.input("scan"), {parse_columns(run.option("columns")), folder});
+      open_scan(run.input("scan"), {parse_columns(run.option("columns")), folder, program_folder()});
   for (const std::string& note : reader->notes()) {
     run.note(note);
   }

@@ -145,7 +145,7 @@ void check_step(double step_m, const ScanSettings& settings) {
   if (step_m > kCoarsest_m) {
     throw StageError(errors::kScanTooCoarse, settings.name,
                      "the coordinates are rounded to steps of " + std::to_string(std::lround(1000 * step_m)) +
-                         " mm, too coarse for a model: so far from the origin 32-bit numbers are no finer",
+                         " mm, too coarse for a model; 32-bit numbers are so far from the origin",
                      "export the scan with 64-bit coordinates (double), or with an offset subtracted before");
   }
 }
@@ -200,7 +200,10 @@ TiledScan tile_scan(const ScanReader& reader, const ScanSettings& settings, cons
     far += block.far;
   }
   reader.check_total(counts.read);
-  const std::uint64_t real = counts.read - counts.no_returns - counts.not_finite;
+  counts.no_returns += reader.dropped().no_returns;
+  counts.invalid = reader.dropped().invalid;
+  counts.read += reader.dropped().no_returns + counts.invalid;
+  const std::uint64_t real = counts.read - counts.no_returns - counts.invalid - counts.not_finite;
   if (real == 0) {
     throw StageError(errors::kScanNoPoints, settings.name,
                      counts.read == 0 ? "there is not one point in it"
