@@ -2,6 +2,7 @@
 #include "stages/ingest/ingest_io.h"
 
 #include <charconv>
+#include <cmath>
 #include <future>
 
 #include "common/artefact/sha256.h"
@@ -52,6 +53,7 @@ void report(StageRun& run, const TiledScan& scan, const SurfaceSummary& summary,
   run.count("no return", static_cast<double>(counts.no_returns));
   run.count("invalid", static_cast<double>(counts.invalid));
   run.count("not finite", static_cast<double>(counts.not_finite));
+  run.count("thin", static_cast<double>(counts.thin));
   run.count("ghosts", static_cast<double>(counts.ghosts));
   run.count("noise", 1000 * header.noise_m, "mm");
   run.count("density", header.density, "per m^2");
@@ -65,6 +67,11 @@ void report(StageRun& run, const TiledScan& scan, const SurfaceSummary& summary,
   }
   if (counts.not_finite > 0) {
     run.warn(std::to_string(counts.not_finite) + " points with NaN or infinite coordinates were dropped");
+  }
+  if (counts.thin > 0) {
+    run.warn("the model ends where the points get thin: about " +
+             std::to_string(std::lround(scan.thin_reach_m)) + " m of scan with only " +
+             std::to_string(counts.thin) + " points were left out");
   }
   if (counts.ghosts > 0) {
     run.warn(std::to_string(counts.ghosts) + " ghosts, sparse points far from the building, were dropped");
@@ -87,7 +94,7 @@ void report(StageRun& run, const TiledScan& scan, const SurfaceSummary& summary,
 StageInfo ingest_info() {
   StageInfo info;
   info.name = "ingest";
-  info.revision = 3;
+  info.revision = 4;
   info.summary = "Reads a raw scan; finds surface class, azimuth, noise and density from sums in voxels.";
   info.inputs = {
       {"scan", "", "The scan: PLY, E57, LAS, LAZ, PCD, PTX or text (.xyz .txt .csv .pts .asc)"},
