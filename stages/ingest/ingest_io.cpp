@@ -11,6 +11,7 @@
 #include "stages/ingest/ingest.h"
 #include "stages/ingest/scan_stations.h"
 #include "stages/ingest/text_columns.h"
+#include "stages/ingest/up_axis.h"
 
 namespace roomcut {
 
@@ -149,13 +150,23 @@ void run_ingest(StageRun& run, const IngestParams& params) {
 
   CloudWriter writer(output, run.provenance(), header_of(scan, stations, params));
   Progress classing = run.progress("classing points", scan.counts.kept);
+  AxisAreas areas;
   const SurfaceSummary summary = class_tiles(
-      scan, params, [&](const CloudTile& part, bool last) { writer.append(part, last); },
+      scan, params,
+      [&](const CloudTile& part, bool last) {
+        areas.add(part);
+        writer.append(part, last);
+      },
       [&](std::uint64_t points) { classing.advance(points); });
   writer.header().noise_m = noise_of(summary.estimates, scan.step_m);
   writer.header().density = density_of(summary.estimates);
   writer.finish();
   report(run, scan, summary, writer.header());
+  const CloudHeader& header = writer.header();
+  if (const std::string question = upright_floors(areas, header.bbox_min, header.bbox_max, run.option("up"));
+      !question.empty()) {
+    run.warn(question);
+  }
 }
 
 }  // namespace roomcut
