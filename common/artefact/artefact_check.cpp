@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "common/artefact/limits.h"
+#include "common/artefact/sha256.h"
 #include "common/errors/codes.h"
 
 namespace roomcut {
@@ -30,6 +31,12 @@ void require_payload(const std::filesystem::path& path, const std::string& state
                      const std::string& actual) {
   if (stated != actual) {
     throw_damaged(path, "", kNotAsWritten);
+  }
+}
+
+void require_params(const std::filesystem::path& path, const Provenance& provenance) {
+  if (!provenance.params_sha256.empty() && sha256_hex(provenance.params_json) != provenance.params_sha256) {
+    throw_damaged(path, "provenance", "the parameters do not have the digest that is stated with them");
   }
 }
 
