@@ -22,14 +22,14 @@ generator = $$(command -v ninja > /dev/null && echo "-G Ninja")
 quiet_make = env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL
 pipeline = +@sh stages/pipeline.sh
 
-.PHONY: help deps build test demo run status verify view edit-lines diff-lines drop-edit layers evaluate compare accuracy accuracy-walls accuracy-weights bench tidy format ready \
+.PHONY: help deps build test demo run status verify view edit-lines diff-lines drop-edit layers evaluate compare accuracy accuracy-walls accuracy-weights bench fuzz robustness tidy format ready \
         $(stages) $(stages:%=rerun-%) $(stages:%=clean-%) $(stages:%=plot-%)
 
 help:
 	@printf '%s\n' \
 	'make demo                     set up, build, make a synthetic two-storey scan, reconstruct it (work/demo/)' \
 	'make test                     set up, build, run every test' \
-	'make build | deps             build into build/ | install the Debian packages that are missing' \
+	'make build | deps             build into build/ | install what is missing: Debian packages, readers of E57, LAS, LAZ' \
 	'' \
 	'make run SCAN=office.ply      the whole pipeline into work/office/' \
 	'make STAGE SCAN=…             up to and including one stage' \
@@ -48,6 +48,10 @@ help:
 	'make accuracy-weights         after make accuracy: weights of the data term fitted with every building left out; ONLY=, OUT=file;' \
 	'                              ROOT=folder of its work folders, here and in make accuracy, instead of work/accuracy/' \
 	'' \
+	'make fuzz                     every reader fed with damaged bytes, SECONDS=60 each (libFuzzer, clang); ONLY="slices edit …"' \
+	'make robustness               N=330 damaged files of each kind for every program that reads them; ONLY=, SEED=; then every' \
+	'                              write, allocation … of every stage fails once' \
+	'' \
 	'Stages: ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines' \
 	'        (second pass) final_partition final_weigh_faces final_raycast final_graphcut   find_openings extract report' \
 	'WORK=folder    instead of work/<name of the scan>      CONFIG=my.yaml  parameters instead of pipeline.yaml' \
@@ -58,6 +62,7 @@ help:
 
 deps:
 	@sh .ci/install-packages.sh
+	@sh .ci/install-python.sh "$$BUILD"
 
 build: deps
 	@[ -f "$$BUILD/CMakeCache.txt" ] || cmake -S . -B "$$BUILD" $(generator) $(CMAKE_ARGS)
@@ -110,6 +115,18 @@ bench: deps
 	@cmake -S . -B "$$BUILD" $(generator) -DROOMCUT_BENCH=ON $(CMAKE_ARGS) > /dev/null
 	@cmake --build "$$BUILD"
 	@python3 tests/bench/bench.py "$$BUILD" $(BENCH)
+
+# A build of its own, of what the targets need (build-fuzz/); what it finds is kept in build-fuzz/findings/.
+fuzz: build
+	@sh .ci/install-packages.sh debian-packages-ci.txt
+	@cmake --preset fuzz > /dev/null
+	@cmake --build build-fuzz --target fuzz
+	@$(quiet_make) /usr/bin/python3 tests/fuzz/fuzz.py . "$$BUILD" build-fuzz --seconds $(or $(SECONDS),60) $(if $(ONLY),--only $(ONLY))
+
+robustness: build
+	@sh .ci/install-packages.sh debian-packages-ci.txt
+	@$(quiet_make) /usr/bin/python3 tests/robustness/mutate.py . "$$BUILD" --n $(or $(N),330) --seed $(or $(SEED),1) \
+	  --keep work/robustness $(OUT:%=--json %) $(if $(ONLY),--only $(ONLY))
 
 # Configured on its own, nothing is built: GCC's precompiled headers are not for clang.
 tidy: deps

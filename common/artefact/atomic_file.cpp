@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/artefact/atomic_file.h"
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/stat.h>
@@ -12,6 +13,7 @@
 #include <charconv>
 #include <cstring>
 #include <fstream>
+#include <memory>
 #include <system_error>
 
 #include "common/artefact/unsynced_file.h"
@@ -53,7 +55,9 @@ void forget_temporary(const fs::path& path) {
 }
 
 [[noreturn]] void cannot_write(const fs::path& path, const std::string& action, int why) {
-  std::string hint;
+  std::string hint =
+      "see whether the disk is sound, or choose another folder with WORK= or --work; nothing of before is "
+      "lost";
   if (why == ENOSPC || why == EDQUOT || why == EFBIG) {
     hint = "free some space, or choose another folder with WORK= or --work; nothing of before is lost";
   } else if (why == EACCES || why == EPERM || why == EROFS) {
@@ -89,11 +93,13 @@ bool is_dead(pid_t pid) {
 }
 
 void remove_left_overs(const fs::path& folder, const std::string& name) {
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-    const pid_t pid = writer_of(entry.path().filename().string(), name);
+  // Not std::filesystem::directory_iterator, which ends the process when memory runs out.
+  const std::unique_ptr<DIR, int (*)(DIR*)> entries(::opendir(folder.c_str()), ::closedir);
+  while (const dirent* const entry = entries ? ::readdir(entries.get()) : nullptr) {
+    const pid_t pid = writer_of(entry->d_name, name);
     if (pid > 0 && pid != ::getpid() && is_dead(pid)) {
-      fs::remove(entry.path(), ignored);
+      std::error_code ignored;
+      fs::remove(folder / entry->d_name, ignored);
     }
   }
 }

@@ -3,7 +3,7 @@
 #include <iostream>
 #include <iterator>
 
-#include "common/artefact_tool/actual_digest.h"
+#include "common/artefact_digest/artefact_digest.h"
 #include "common/artefact_tool/commands.h"
 #include "common/artefact_tool/set_aside.h"
 #include "common/artefact_tool/status.h"
@@ -31,7 +31,7 @@ void prepare_marks(const std::vector<PipelineStage>& needed) {
 
 void print_plan(const PlanOptions& options, const std::vector<std::string>& goals) {
   const std::vector<PipelineStage> needed = needed_for(pipeline_from_stdin(), goals);
-  WorkDigests digests(actual_digest, options.scan);
+  WorkDigests digests(payload_digest, options.scan);
   const auto content_of = [&](const std::string& name) { return digests.of(name); };
   const std::vector<StaleStage> stale = find_stale(needed, content_of, options.again);
   digests.save();
@@ -62,7 +62,7 @@ void print_plan(const PlanOptions& options, const std::vector<std::string>& goal
 
 void print_status(const PlanOptions& options) {
   const std::vector<PipelineStage> pipeline = pipeline_from_stdin();
-  WorkDigests digests(actual_digest, options.scan);
+  WorkDigests digests(payload_digest, options.scan);
   print_status(pipeline, find_stale(pipeline, [&](const std::string& name) { return digests.of(name); }));
 }
 

@@ -219,8 +219,7 @@ int guarded(const std::function<void()>& body, std::vector<Problem>& problems) {
     problems = error.problems();
     return report(problems);
   } catch (const std::bad_alloc&) {
-    problems.push_back({errors::kTooComplex, "", "there is not enough memory for this data",
-                        "close other programs, or use a machine with more memory"});
+    problems.push_back({errors::kTooComplex, "", std::string(kNoMemory), std::string(kNoMemoryHint)});
     return report(problems);
   } catch (const std::exception& error) {
     static constexpr ErrorCode kBug{"B01", ExitCode::kBug};

@@ -83,6 +83,8 @@ class StageRun {
   void chose(const std::string& parameter, double value, const std::string& why);
   /// A count or figure of this run: printed at the end and kept in the log.
   void count(const std::string& what, double value, const std::string& unit = "");
+  /// How something was understood: printed at once, kept in the log.
+  void note(const std::string& text);
   /// A warning: printed at once, repeated at the end, kept in the log.
   void warn(const std::string& text);
 

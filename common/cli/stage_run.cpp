@@ -132,6 +132,12 @@ void StageRun::count(const std::string& what, double value, const std::string& u
   state_.counts.push_back({what, value, unit});
 }
 
+void StageRun::note(const std::string& text) {
+  const std::scoped_lock lock(state_.mutex);
+  state_.notes.push_back(text);
+  spdlog::info("{}: {}", state_.info->name, text);
+}
+
 void StageRun::warn(const std::string& text) {
   const std::scoped_lock lock(state_.mutex);
   state_.warnings.push_back(text);

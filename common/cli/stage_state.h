@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/artefact/json.h"
@@ -42,11 +43,19 @@ struct StageRun::State {
   std::mutex mutex;  ///< guards what follows
   std::vector<Choice> choices;
   std::vector<Count> counts;
+  std::vector<std::string> notes;
   std::vector<std::string> warnings;
 
   std::chrono::system_clock::time_point started = std::chrono::system_clock::now();
   std::chrono::steady_clock::time_point clock = std::chrono::steady_clock::now();
 };
+
+/// N07 when memory runs out, wherever that is.
+inline constexpr std::string_view kNoMemory = "there is not enough memory for this data";
+inline constexpr std::string_view kNoMemoryHint = "close other programs, or use a machine with more memory";
+
+/// Says N07 without any allocation, after temporary files are gone, and ends the process with its exit code.
+[[noreturn]] void end_out_of_memory();
 
 /// A number as people read it: whole numbers in full, others with four digits.
 std::string readable(double value);

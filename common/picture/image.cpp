@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <new>
 #include <stdexcept>
 #include <string_view>
 
@@ -102,7 +103,11 @@ std::vector<std::uint8_t> encode_png(const Image& image, PngPixels pixels) {
       has_palette ? static_cast<const void*>(indexed.index.data()) : image.pixels().data();
   const void* const palette = has_palette ? indexed.palette.data() : nullptr;
   if (png_image_write_to_memory(&png, bytes.data(), &size, 0, data, 0, palette) == 0) {
-    throw std::runtime_error(std::string("libpng: ") + png.message);
+    const std::string why = png.message;
+    if (why.find("memory") != std::string::npos) {
+      throw std::bad_alloc();
+    }
+    throw std::runtime_error("libpng: " + why);
   }
   bytes.resize(size);
   return bytes;

@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 #include <zlib.h>
 
+#include <new>
 #include <stdexcept>
 
 #include "common/picture/svg.h"
@@ -23,7 +24,7 @@ std::string gzip(std::string_view bytes, bool noisy) {
   z_stream stream{};
   if (deflateInit2(&stream, kQuick, Z_DEFLATED, kGzipWindow, kMemory, noisy ? Z_RLE : Z_DEFAULT_STRATEGY) !=
       Z_OK) {
-    throw std::runtime_error("zlib cannot begin");
+    throw std::bad_alloc();  // the one reason that it can have
   }
   std::string packed(deflateBound(&stream, bytes.size()), '\0');
   stream.next_in = reinterpret_cast<const Bytef*>(bytes.data());

@@ -14,6 +14,7 @@
 #include "common/errors/codes.h"
 #include "stages/synthesize/plan.h"
 #include "stages/synthesize/plan_graph.h"
+#include "stages/synthesize/scene_limits.h"
 
 namespace roomcut {
 
@@ -116,7 +117,8 @@ PlanUnion Uniter::unite() {
 }
 
 void Uniter::problem(const std::string& what, const std::string& hint) {
-  if (said_.insert(what).second) problems_.push_back({errors::kSceneInvalid, scene_.name, what, hint});
+  if (said_.insert(what).second)
+    problems_.push_back({errors::kSceneInvalid, scene_.name, what, hint.empty() ? kSceneRemedy : hint});
 }
 
 void Uniter::collect_heights() {
@@ -126,6 +128,13 @@ void Uniter::collect_heights() {
   }
   std::sort(result_.heights.begin(), result_.heights.end());
   result_.heights.erase(std::unique(result_.heights.begin(), result_.heights.end()), result_.heights.end());
+  const double layers = static_cast<double>(result_.heights.size() * building_.prisms.size());
+  if (layers > scene_limits::kLayers) {
+    throw StageError(errors::kSceneInvalid, scene_.name,
+                     std::to_string(result_.heights.size()) + " different heights of " +
+                         std::to_string(building_.prisms.size()) + " rooms and openings are too many",
+                     "give the rooms of a storey the same floor and ceiling");
+  }
 }
 
 /// The overlay of all plans; every triangle gets the index of its piece.

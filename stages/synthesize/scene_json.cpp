@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages/synthesize/scene_json.h"
 
-#include <fstream>
 #include <map>
 #include <numbers>
 #include <stdexcept>
 
+#include "common/artefact/atomic_file.h"
+#include "common/artefact/json.h"
 #include "stages/synthesize/families.h"
 #include "stages/synthesize/plan.h"
+#include "stages/synthesize/scene_limits.h"
 #include "stages/synthesize/scene_reader.h"
 
 namespace roomcut {
@@ -71,7 +73,7 @@ Scene SceneParser::parse(const json& root) {
     if (const json* value = node.member("repeat")) parse_repeat(*value, node.path("repeat"));
     if (scene_.rooms.empty() && problems_.empty()) node.problem("there is no room");
   }
-  if (!problems_.empty()) throw StageError(problems_);
+  if (!problems_.empty()) refuse_scene(problems_);
   return scene_;
 }
 
@@ -111,7 +113,8 @@ void SceneParser::parse_room(const json& value, const std::string& path, double 
     room.polygon = node.polygon("polygon");
   }
   if (!room_by_name_.emplace(room.name, static_cast<int>(scene_.rooms.size())).second) {
-    node.problem("a second room named \"" + room.name + "\"", "room names are unique in the whole scene");
+    node.problem("a second room named \"" + shown(room.name) + "\"",
+                 "room names are unique in the whole scene");
   }
   scene_.rooms.push_back(std::move(room));
 }
@@ -140,7 +143,7 @@ int SceneParser::room_index(SceneNode& node, const json* name) {
   if (name != nullptr && name->is_string()) {
     const auto found = room_by_name_.find(name->get<std::string>());
     if (found != room_by_name_.end()) return found->second;
-    node.problem("there is no room named \"" + name->get<std::string>() + "\"");
+    node.problem("there is no room named \"" + shown(name->get<std::string>()) + "\"");
   } else {
     node.problem("a room's name is missing");
   }
@@ -247,16 +250,17 @@ Scene scene_from_json(const json& root, const std::string& where) {
 
 Scene read_scene(const std::filesystem::path& path) {
   const std::string name = path.filename().string();
-  std::ifstream file(path);
-  if (!std::filesystem::is_regular_file(path) || !file) {
-    throw StageError(errors::kSceneUnreadable, path.string(), "cannot be read",
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    throw StageError(errors::kSceneUnreadable, path.string(), "cannot be read, or is not a file",
                      "give a scene file (schemas/scene.md)");
   }
   json root;
   try {
-    root = json::parse(file);
-  } catch (const json::exception& error) {
-    throw StageError(errors::kSceneUnreadable, name, std::string("is not JSON: ") + error.what());
+    root = parse_json(read_text_file(path));
+  } catch (const BadJson& trouble) {
+    throw StageError(errors::kSceneUnreadable, name, std::string("is not JSON: ") + trouble.what(),
+                     "look at the place named: a missing or a trailing comma, an open bracket or quote?");
   }
   return scene_from_json(root, name);
 }

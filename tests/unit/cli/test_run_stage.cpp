@@ -140,6 +140,7 @@ TEST(RunStage, prints_what_was_chosen_counted_and_warned_of_and_logs_it) {
     run.count("cells", 320);
     run.count("area", 12.34567, "m^2");
     run.count("nothing", std::numeric_limits<double>::quiet_NaN());
+    run.note("x is column 2");
     run.warn("first");
     run.warn("second");
   };
@@ -156,6 +157,8 @@ TEST(RunStage, prints_what_was_chosen_counted_and_warned_of_and_logs_it) {
   EXPECT_EQ(log["params"]["width_m"], 0.5);
   EXPECT_EQ(log["chosen"][0]["why"], "twice the noise");
   EXPECT_EQ(log["counts"][1]["value"], 12.34567);
+  EXPECT_TRUE(has(o.err, "slice: x is column 2")) << o.err;
+  EXPECT_EQ(log["notes"], Json::array({"x is column 2"}));
   EXPECT_EQ(log["warnings"], Json({"first", "second"}));
   EXPECT_GT(log["peak_memory_mb"], 1.0);
   EXPECT_EQ(run_sample({"--work", folder.path(), "-q"}, body).err, "");

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// HDF5 artefacts: edits of a sound one (hdf5_edits.h) are read, and used as the next stage uses them where
+// that is quick.
+#include <array>
+
+#include "common/artefact/h5.h"
+#include "common/cells/cells_io.h"
+#include "common/cloud/cloud_io.h"
+#include "common/slices/slices_io.h"
+#include "stages/detect_lines/detect_lines.h"
+#include "stages/slice/slice.h"
+#include "tests/fuzz/hdf5_edits.h"
+#include "tests/fuzz/target.h"
+
+namespace roomcut::fuzz {
+
+namespace {
+
+constexpr const char *kCloud = "10_ingest/cloud.h5", *kSlices = "20_slice/slices.h5",
+                     *kHough = "30_detect_lines/hough.h5", *kCells = "50_partition/cells.h5",
+                     *kWeights = "55_weigh_faces/weights.h5", *kTerms = "60_raycast/data_terms.h5",
+                     *kLabels = "70_graphcut/labels.h5";
+
+const CellsFile& seed_cells() {
+  static const CellsFile kFile = read_cells(seeds() / kCells);
+  return kFile;
+}
+
+void cloud(std::string_view edits) {
+  const PrivateFile file(edited_artefact(kCloud, edits), ".h5");
+  const CloudReader reader(file.path());
+  const TileSource tiles = [&](const TileVisitor& visit) { reader.for_each_tile(visit, {}); };
+  slice_cloud(reader.header(), tiles, SliceParams{});
+}
+
+void slices(std::string_view edits) {
+  const PrivateFile file(edited_artefact(kSlices, edits), ".h5");
+  DetectLinesParams coarse;  // a small accumulator: more turns a second
+  coarse.hough_angle_deg = 2;
+  coarse.hough_distance_m = 0.05;
+  detect_lines(read_slices(file.path()), coarse);
+}
+
+/// As the report reads it (stages/report/page_plan_blocks.cpp).
+void hough(std::string_view edits) {
+  const PrivateFile file(edited_artefact(kHough, edits), ".h5");
+  const H5Reader reader(file.path(), artefacts::kHough);
+  reader.read<std::uint8_t>("cells/boundary", {0});
+  reader.read<float>("cells/theta", {0});
+  reader.read<std::int32_t>("cells/line", {0});
+}
+
+void cells(std::string_view edits) {
+  const PrivateFile file(edited_artefact(kCells, edits), ".h5");
+  read_cells(file.path());
+}
+
+void weights(std::string_view edits) {
+  const PrivateFile file(edited_artefact(kWeights, edits), ".h5");
+  read_weights(file.path(), seed_cells());
+}
+
+void data_terms(std::string_view edits) {
+  const PrivateFile file(edited_artefact(kTerms, edits), ".h5");
+  read_data_terms(file.path(), seed_cells());
+}
+
+void labels(std::string_view edits) {
+  const PrivateFile file(edited_artefact(kLabels, edits), ".h5");
+  read_labels(file.path(), seed_cells());
+}
+
+constexpr std::array kTargets{Target{"cloud", Mutation::kHdf5Edits, cloud, kCloud},
+                              Target{"slices", Mutation::kHdf5Edits, slices, kSlices},
+                              Target{"hough", Mutation::kHdf5Edits, hough, kHough},
+                              Target{"cells", Mutation::kHdf5Edits, cells, kCells},
+                              Target{"weights", Mutation::kHdf5Edits, weights, kWeights},
+                              Target{"data_terms", Mutation::kHdf5Edits, data_terms, kTerms},
+                              Target{"labels", Mutation::kHdf5Edits, labels, kLabels}};
+
+}  // namespace
+
+std::span<const Target> hdf5_targets() {
+  return kTargets;
+}
+
+}  // namespace roomcut::fuzz

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Scans, and the scanner positions beside them.
+#include <array>
+
+#include "stages/ingest/ingest.h"
+#include "stages/ingest/scan_reader.h"
+#include "stages/ingest/scan_stations.h"
+#include "tests/fuzz/target.h"
+
+namespace roomcut::fuzz {
+
+namespace {
+
+/// All that ingest does with a file: reads it, sorts the points into tiles, classes them.
+void ingest(std::string_view bytes, std::string_view ending) {
+  const PrivateFile file(bytes, ending);
+  const auto reader = open_scan(file.path());
+  const IngestParams params;
+  const ScanSettings settings{"m", "z", std::uint64_t{1} << 20, private_folder(), file.path().string()};
+  const TiledScan scan = tile_scan(*reader, settings, params);
+  class_tiles(scan, params, [](const CloudTile&, bool) {});
+}
+
+void scan_ply(std::string_view bytes) {
+  if (bytes.starts_with("ply")) {
+    ingest(bytes, ".ply");
+  }
+}
+
+void scan_text(std::string_view bytes) {
+  if (!bytes.starts_with("ply")) {
+    ingest(bytes, ".xyz");
+  }
+}
+
+void stations(std::string_view bytes) {
+  const PrivateFile file(bytes, ".txt");
+  read_stations(file.path());
+}
+
+constexpr std::array kTargets{Target{"scan_ply", Mutation::kBytes, scan_ply, ""},
+                              Target{"scan_text", Mutation::kBytes, scan_text, ""},
+                              Target{"stations", Mutation::kBytes, stations, ""}};
+
+}  // namespace
+
+std::span<const Target> scan_targets() {
+  return kTargets;
+}
+
+}  // namespace roomcut::fuzz

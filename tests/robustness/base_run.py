@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A small whole run, made by the programs themselves: two rooms with a door between them, all artefacts, a truth, an edit."""
+import os
+import shutil
+import subprocess
+
+import programs
+
+SCENE = "tests/data/scenes/l_shape.json"
+POINTS = 60000
+
+
+def run(command, **options):
+    done = subprocess.run(command, capture_output=True, text=True, check=False, **options)
+    if done.returncode != 0:
+        raise AssertionError(f"{' '.join(command)}: exit {done.returncode}\n{done.stdout}\n{done.stderr}")
+
+
+def make(source, build, folder, points=POINTS):
+    """Fills `folder` (made anew). The whole pipeline as make runs it, then what `make evaluate` and the editor add."""
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(folder)
+    shutil.copy(os.path.join(source, SCENE), os.path.join(folder, programs.SCENE))
+    run([os.path.join(build, "bin", "synthesize"), "-q", "--scene", programs.SCENE, "--set", f"points={points}",
+         "--scan-out", programs.SCAN, "--truth-out", programs.TRUTH, "--truth-json", programs.TRUTH_JSON], cwd=folder)
+    clean = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL")}
+    run(["make", "--no-print-directory", "-C", source, "run", f"SCAN={os.path.join(folder, programs.SCAN)}", f"WORK={folder}",
+         f"BUILD={build}", "QUIET=1"], env=clean)
+    shutil.copy(os.path.join(source, "pipeline.yaml"), os.path.join(folder, "my.yaml"))
+    # The edit is not part of the run above: accept_lines and diff_lines find it when a test puts it into its place.
+    shutil.copy(os.path.join(folder, programs.LINES_40), os.path.join(folder, "edit.geojson"))
+    return folder
