@@ -6,9 +6,13 @@
 MAKEFLAGS += --no-print-directory --no-builtin-rules
 .SUFFIXES:
 
-# From the command line; passed on through the environment, so that names may hold spaces and any letters.
+# From the command line; passed on through the environment as they were typed, so that names may hold spaces and any letters, "$" too:
+# Make expands none of them, and hands none on to another make.
 BUILD ?= build
-export SCAN WORK CONFIG BUILD JOBS UP UNIT STATIONS TRUTH PORT QUIET ONLY BASE OUT ROOT A B
+given := SCAN WORK CONFIG BUILD JOBS UP UNIT STATIONS TRUTH PORT QUIET ONLY BASE OUT ROOT A B
+$(foreach name,$(given),$(eval override $(name) := $$(value $(name))))
+export $(given)
+MAKEOVERRIDES :=
 
 stages := ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines \
           final_partition final_weigh_faces final_raycast final_graphcut find_openings extract report
@@ -52,6 +56,7 @@ help:
 	'        (second pass) final_partition final_weigh_faces final_raycast final_graphcut   find_openings extract report' \
 	'WORK=folder    instead of work/<name of the scan>      CONFIG=my.yaml  parameters instead of pipeline.yaml' \
 	'UP=y UNIT=mm   how the scan is to be read              STATIONS=file   scanner positions, x y z on each line' \
+	'               (these four hold until said otherwise; CONFIG=none, STATIONS=none take them back)' \
 	'JOBS=n         threads of a stage; default: all        PORT=n          of make view; default: any free one' \
 	'BUILD=folder   of the programs instead of build/       QUIET=1         errors only'
 
@@ -96,7 +101,7 @@ accuracy: build
 	@$(quiet_make) python3 tests/accuracy/accuracy.py "$$BUILD"
 
 accuracy-walls: build
-	@$(quiet_make) python3 tests/accuracy/walls.py --build "$$BUILD" $(OUT:%=--json %) $(ONLY:%=--only %)
+	@set -f; $(quiet_make) python3 tests/accuracy/walls.py --build "$$BUILD" $${OUT:+--json "$$OUT"} $${ONLY:+--only $$ONLY}
 
 # Debian's own Python: it is the one that has Debian's packages.
 accuracy-weights: build

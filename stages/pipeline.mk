@@ -1,22 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The rules of the pipeline. stages/pipeline.sh runs this file inside a work folder, so that all names here are relative and have
-# no spaces, whatever the folder is called. It has brought inputs/ and params/ up to date: those files change only when
-# their content does. From the environment: ROOMCUT_BIN, _SCAN, _UP,
-# _UNIT, _THREADS, _VERBOSITY, _STATUS, _PROGRESS, _INGEST_HEAP; not SCAN itself, which Make would hand on as the user wrote it, relative to elsewhere.
+# The rules of the pipeline: what each stage reads and writes, and in which order they run. stages/pipeline.sh runs this file inside a
+# work folder, so that all names here are relative and have no spaces, whatever the folder is called. From the environment: ROOMCUT_BIN,
+# _SCAN, _UP, _UNIT, _THREADS, _VERBOSITY, _PROGRESS, _INGEST_HEAP, which only the shell expands, never Make; not SCAN itself, which Make
+# would hand on as the user wrote it, relative to elsewhere. And two lists of names by `artefact plan`: ROOMCUT_MUST, ROOMCUT_MAY.
 #
-# How a stage runs again only when it must:
-#   params/<stage>.json  resolved parameters and the stage's revision; written anew only when they differ
-#   inputs/              digests of what enters from outside (scan, its options, the hand edit); likewise
-#   stamps/<name>        written when the stage has run, with the digests of its outputs
-# An output whose payload is as before keeps its old time (the stage sees to that; when the old file was gone, by the digest in its last stamp),
-# so that nothing after it runs. The recipe `@:` of an output makes Make look at its time again after the stage has run.
-# A stage that is killed or fails leaves no stamp and runs again. The programs themselves are no prerequisites: a
+# Which stages run is decided by content, never by a file's time (common/rerun/README.md):
+#   params/<stage>.json  resolved parameters and the stage's revision
+#   inputs/, edits/      what enters from outside; and the scan, which goes by the name "scan"
+#   stamps/<name>        written when the stage has run: the digests of all that it read and of all that it wrote
+# `artefact plan` compares them with what lies there now. A stage of ROOMCUT_MUST runs. One of ROOMCUT_MAY asks itself, when those before it have run, whether
+# what it reads came out different (--if-changed). All others have no recipe. Make sees to the order, and to -j.
+# A stage that is killed or fails leaves no stamp and runs again. The programs themselves are not looked at: a
 # rebuild repeats hours of work only when a stage's revision changed.
 
 MAKEFLAGS += --no-builtin-rules --no-print-directory
 .SUFFIXES:
-.PHONY: FORCE run table
-FORCE:
+.PHONY: run table
 
 names :=
 
@@ -25,21 +24,18 @@ define stage
 names += $(1)
 row_$(1) := $(1) $(2) : $(3) : params/$(2).json $(4)
 position_$(1) := $$(words $$(names))
-missing_$(1) := $(filter-out $(wildcard $(3)),$(3))
+$(foreach output,$(3),maker_$(output) := $(1)
+)
 .PHONY: $(1)
-$(1): $(3) ; @:
-$(3): stamps/$(1) ; @:
-stamps/$(1): params/$(2).json $(4) $$(if $$(missing_$(1)),FORCE)
-	$$(call run_stage,$(1),$(2),$(3),$(5))
+$(1): $$(foreach input,$(4),$$(maker_$$(input)))
+	$$(if $$(filter $(1),$$(ROOMCUT_MUST)),$$(call run_stage,$(1),$(2),$(4),$(5)),\
+	  $$(if $$(filter $(1),$$(ROOMCUT_MAY)),$$(call run_stage,$(1),$(2),$(4),--if-changed $(5)),@:))
 endef
 
-ifdef ROOMCUT_STATUS
-run_stage = @echo "$(1) $(filter-out FORCE,$?) $(missing_$(1):%=missing:%)" >> stamps/.status
-else
 # With ROOMCUT_PROGRESS every stage is announced: "@stage 7 15 raycast".
-run_stage = @$(if $(ROOMCUT_PROGRESS),echo "@stage $(position_$(1)) $(words $(names)) $(1)"; )$(environment_$(1))"$$ROOMCUT_BIN/$(2)" --work . --params params/$(2).json \
-	--log logs/$(1).json --stamp stamps/$(1) --missing "$(missing_$(1))" $(ROOMCUT_THREADS:%=--threads %) $(ROOMCUT_VERBOSITY) $(4)
-endif
+run_stage = @$(environment_$(1))"$$ROOMCUT_BIN/$(2)" --work . --params params/$(2).json --log logs/$(1).json --stamp stamps/$(1) \
+	--reads "params/$(2).json $(3)" $(if $(ROOMCUT_PROGRESS),--announce "@stage $(position_$(1)) $(words $(names)) $(1)") \
+	$${ROOMCUT_THREADS:+--threads "$$ROOMCUT_THREADS"} $${ROOMCUT_VERBOSITY:+"$$ROOMCUT_VERBOSITY"} $(4)
 
 # How memory is taken (pipeline.sh); ingest has its own way.
 environment_ingest := GLIBC_TUNABLES="$$ROOMCUT_INGEST_HEAP" # the space belongs to it
@@ -56,11 +52,11 @@ labels   := 70_graphcut/labels.h5
 final    := 90_final/cells.h5 90_final/weights.h5 90_final/data_terms.h5 90_final/labels.h5
 openings := 95_find_openings/openings.geojson
 
-$(eval $(call stage,ingest,ingest,$(cloud),inputs/scan.id inputs/scan.options inputs/stations.txt,\
+$(eval $(call stage,ingest,ingest,$(cloud),scan inputs/scan.options inputs/stations.txt,\
   --scan "$$$$ROOMCUT_SCAN" --up "$$$$ROOMCUT_UP" --unit "$$$$ROOMCUT_UNIT" $$$$(test ! -s inputs/stations.txt || echo --stations inputs/stations.txt)))
 $(eval $(call stage,slice,slice,$(slices),$(cloud)))
 $(eval $(call stage,detect_lines,detect_lines,$(lines_30) 30_detect_lines/hough.h5,$(slices)))
-$(eval $(call stage,accept_lines,accept_lines,$(lines_40),$(lines_30) inputs/edit.id))
+$(eval $(call stage,accept_lines,accept_lines,$(lines_40),$(lines_30) edits/wall_lines.geojson))
 $(eval $(call stage,partition,partition,$(cells),$(lines_40) $(slices)))
 $(eval $(call stage,weigh_faces,weigh_faces,$(weights),$(cells) $(cloud)))
 $(eval $(call stage,raycast,raycast,$(terms),$(cells) $(weights)))
@@ -84,6 +80,6 @@ $(eval $(call stage,report,report,report.html,$(cloud) $(slices) $(lines_30) 30_
 
 run: $(names) ; @:
 
-# What `make status` reads: "name program : outputs : inputs", one stage a line.
+# What `artefact plan` and `artefact status` read: "name program : outputs : inputs", one stage a line.
 table:
 	@:$(foreach name,$(names),$(info $(row_$(name))))

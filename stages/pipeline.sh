@@ -7,14 +7,20 @@ set -eu
 
 # Every process that this script starts costs milliseconds, a run should cost a quarter of a second: builtins where they do.
 root=$(cd "${0%/*}/.." && pwd)
+. "$root/stages/pipeline_inputs.sh"
 stages="ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines find_openings extract report"
+runs="$stages final_partition final_weigh_faces final_raycast final_graphcut"
 : "${SCAN:=}" "${WORK:=}" "${CONFIG:=}" "${BUILD:=$root/build}" "${JOBS:=}" "${UP:=}" "${UNIT:=}" "${STATIONS:=}" "${TRUTH:=}"
 : "${PORT:=}" "${QUIET:=}" "${A:=}" "${B:=}"
 
-fail() {
-  echo "error[U01] $1" >&2
-  echo "hint: $2" >&2
-  exit 2
+complain() { # complain CODE CAUSE REMEDY EXIT_CODE
+  echo "error[$1] $2" >&2
+  echo "hint: $3" >&2
+  exit "$4"
+}
+fail() { complain U01 "$1" "$2" 2; }
+cannot_write() { # cannot_write FILE CAUSE
+  complain O01 "$1: $2" "choose a folder that you may write and that has room, with WORK=" 5
 }
 
 absolute() {
@@ -24,49 +30,31 @@ absolute() {
   esac
 }
 
-# Whether $1 is a file of the text $2 and a newline.
-holds() {
-  [ -f "$1" ] || return 1
-  held=
-  while IFS= read -r line; do held="$held$line
-"; done < "$1"
-  [ "$held" = "$2
-" ]
-}
-
-# Writes $2 and a newline to $1 only when it differs: the time of the file is that of its last change.
-record() {
-  if holds "$1" "$2"; then return; fi
-  printf '%s\n' "$2" > "$1.new"
-  mv -f "$1.new" "$1"
-}
-
-# Copies $2 to $1 only when it differs.
-record_file() {
-  if [ -f "$1" ] && cmp -s "$2" "$1"; then return; fi
-  cat "$2" > "$1.new"
-  mv -f "$1.new" "$1"
+# JOBS goes to every program; nothing but a number may.
+check_jobs() {
+  case $JOBS in
+    '') ;;
+    0* | *[!0-9]* | ?????*) fail "JOBS=$JOBS: is no number of threads" "give a whole number from 1 to 4096, or leave it out for all" ;;
+    *) [ "$JOBS" -le 4096 ] || fail "JOBS=$JOBS: are too many threads" "give a whole number from 1 to 4096" ;;
+  esac
 }
 
 find_work_folder() {
+  work_given=$WORK
+  case $SCAN in '' | *://*) ;; *) SCAN=$(absolute "$SCAN") ;; esac
   if [ -z "$WORK" ]; then
     [ -n "$SCAN" ] || fail "make $command: no scan given" "say which: make $command SCAN=office.ply (or WORK=work/office)"
     name=${SCAN##*/}
-    WORK=$root/work/${name%.*}
+    name=${name%.*}
+    case $name in '' | . | ..) fail "$SCAN: its name gives no name for a work folder" "say where: WORK=work/office" ;; esac
+    WORK=$root/work/$name
   fi
   WORK=$(absolute "$WORK")
-  if [ -n "$SCAN" ]; then
-    SCAN=$(absolute "$SCAN")
-  elif [ -f "$WORK/inputs/scan.path" ]; then
-    IFS= read -r SCAN < "$WORK/inputs/scan.path"
-  else
-    fail "make $command: $WORK was not made from any scan yet" "say which: make $command SCAN=office.ply"
-  fi
-  if [ -n "$CONFIG" ]; then
-    CONFIG=$(absolute "$CONFIG")
-  elif [ -f "$root/pipeline.yaml" ]; then
-    CONFIG=$root/pipeline.yaml
-  fi
+  former_scan=
+  if [ -f "$WORK/inputs/scan.path" ]; then IFS= read -r former_scan < "$WORK/inputs/scan.path"; fi
+  SCAN=${SCAN:-$former_scan}
+  [ -n "$SCAN" ] || fail "make $command: $WORK was not made from any scan yet" "say which: make $command SCAN=office.ply"
+  case $CONFIG in '' | none) ;; *) CONFIG=$(absolute "$CONFIG") ;; esac
   BUILD=$(absolute "$BUILD")
   BIN=$BUILD/bin
   case $STATIONS in '' | none) ;; *) STATIONS=$(absolute "$STATIONS") ;; esac
@@ -75,169 +63,95 @@ find_work_folder() {
 
 # One command at a time works in a folder: a second one waits.
 take_lock() {
-  [ -d "$WORK" ] || mkdir -p "$WORK" 2> /dev/null || {
-    echo "error[O01] $WORK: the folder cannot be made" >&2
-    echo "hint: choose another with WORK=" >&2
-    exit 5
-  }
+  for folder in inputs params stamps logs edits; do
+    [ -d "$WORK/$folder" ] || why=$(LC_ALL=C mkdir -p "$WORK/$folder" 2>&1) ||
+      cannot_write "$WORK/$folder" "the folder cannot be made: ${why##*: }"
+  done
   cd "$WORK"
-  for folder in inputs params stamps logs edits; do [ -d $folder ] || mkdir $folder; done
-  exec 9> stamps/.lock
-  flock -n 9 || { echo "waiting for another make in $WORK" >&2; flock 9; }
+  for folder in . inputs params stamps logs edits; do
+    [ -w $folder ] || cannot_write "$WORK/$folder" "you may not write there"
+  done
+  exec 9>> stamps/.lock
+  wait_for_lock
   # What a make that was killed had not finished writing.
-  rm -rf inputs/*.new params/.new params/.asked.new edits/.*.new pictures/*.new
+  rm -rf inputs/*.new inputs/.former.new params/.new params/.asked.new edits/.*.new pictures/*.new
 }
 
-# The scan enters by its bytes. They are read again only when size, time or file changed, and when an earlier run knows their
-# digest; the first time ingest takes it while reading.
-record_scan() {
-  # How the scan is to be read belongs to the scan: said once, it holds until said otherwise.
-  if [ -f inputs/scan.options ]; then
-    { read -r old_up; read -r old_unit; } < inputs/scan.options || true
-  fi
-  UP=${UP:-${old_up:-z}}
-  UNIT=${UNIT:-${old_unit:-m}}
-  record inputs/scan.options "$UP
-$UNIT"
-  if [ ! -e "$SCAN" ] && [ -f stamps/ingest ]; then
-    echo "note: $SCAN is gone; what was made from it stays" >&2
-    return
-  fi
-  if [ -f inputs/scan.path ] && ! holds inputs/scan.path "$SCAN"; then
-    echo "note: $WORK was made from $(cat inputs/scan.path), now from $SCAN" >&2
-  fi
-  record inputs/scan.path "$SCAN"
-  state=$(stat -L -c '%s %y %d %i' "$SCAN" 2> /dev/null) || state=none
-  if ! holds inputs/scan.stat "$state" || [ ! -f inputs/scan.id ]; then
-    known=
-    if [ -f 10_ingest/cloud.h5 ]; then known=$("$BIN/artefact" input 10_ingest/cloud.h5 scan 2> /dev/null) || known=; fi
-    if [ -n "$known" ] && [ -f inputs/scan.id ] && [ -f "$SCAN" ]; then
-      now=$("$BIN/artefact" bytes "$SCAN")
-      [ "$now" = "$known" ] || record inputs/scan.id "$now"
-    else
-      record inputs/scan.id "$state"
-    fi
-    record inputs/scan.stat "$state"
+wait_for_lock() {
+  flock -n 9 || { echo "waiting for another make in $WORK" >&2; flock 9; }
+}
+
+# For commands that write nothing: also in a folder that nobody may write, an archive.
+enter_to_read() {
+  [ -d "$WORK" ] || fail "$WORK: there is no such work folder" "make run SCAN=office.ply makes one"
+  cd "$WORK"
+  if [ -w stamps/.lock ]; then
+    exec 9>> stamps/.lock
+    wait_for_lock
   fi
 }
 
-# Scanner positions enter as a copy: said once, they hold until said otherwise; STATIONS=none takes them away. Empty: none given.
-record_stations() {
-  case $STATIONS in
-    '') [ -f inputs/stations.txt ] || : > inputs/stations.txt ;;
-    none) record_file inputs/stations.txt /dev/null ;;
-    *)
-      [ -f "$STATIONS" ] || {
-        echo "error[C01] $STATIONS: there is no such file" >&2
-        echo "hint: STATIONS= names a text file with the scanner positions, x y z on each line" >&2
-        exit 3
-      }
-      record_file inputs/stations.txt "$STATIONS" ;;
-  esac
+pipeline_table() {
+  "${MAKE:-make}" -f "$root/stages/pipeline.mk" table
 }
 
-# The hand edit enters by its bytes too, never by its time.
-record_edit() {
-  if [ -f edits/wall_lines.geojson ]; then
-    record inputs/edit.id "$(sha256sum < edits/wall_lines.geojson)"
-  else
-    record inputs/edit.id none
-  fi
-}
-
-# Every stage prints its resolved parameters; asked only when pipeline.yaml or a program changed. params/.asked holds both.
-record_params() {
-  (cd "$BIN" && stat -L -c '%n %s %y' $stages) > params/.asked.new 2> /dev/null ||
-    fail "$BIN: the stages are not built" "make build"
-  if [ -n "$CONFIG" ]; then
-    [ -f "$CONFIG" ] || { echo "error[U02] $CONFIG: there is no such file" >&2; rm -f params/.asked.new; exit 2; }
-    cat "$CONFIG" >> params/.asked.new
-  fi
-  complete=yes
-  for stage in $stages; do [ -f "params/$stage.json" ] || complete=no; done
-  if [ $complete = yes ] && cmp -s params/.asked.new params/.asked; then
-    rm -f params/.asked.new
-    return
-  fi
-  rm -rf params/.new
-  mkdir params/.new
-  take_known_params || ask_params
-  for stage in $stages; do
-    if [ -f "params/$stage.json" ] && cmp -s "params/.new/$stage.json" "params/$stage.json"; then rm -f "params/.new/$stage.json"; fi
-  done
-  rmdir params/.new 2> /dev/null || { mv -f params/.new/*.json params/ && rmdir params/.new; }
-  mv -f params/.asked.new params/.asked
-}
-
-# The answers that the same programs gave to the same pipeline.yaml in another work folder. From inside the folder that holds them:
-# when another run replaces it meanwhile, a file is missing, never of other programs.
-take_known_params() {
-  work=$PWD
-  (cd "$BUILD/parameters" && cmp -s .asked "$work/params/.asked.new" && cp ./*.json "$work/params/.new/") 2> /dev/null
-}
-
-ask_params() {
-  asked=
-  for stage in $stages; do
-    "$BIN/$stage" --dump-params ${CONFIG:+--config "$CONFIG"} > "params/.new/$stage.json" 2> "params/.new/$stage.errors" 9>&- &
-    asked="$asked $!"
-  done
-  failed=0
-  for process in $asked; do wait "$process" || failed=$?; done
-  if [ $failed -ne 0 ]; then
-    # Every stage complains of what is wrong at the top of the file; once is enough.
-    (cd params/.new && for stage in $stages; do cat "$stage.errors"; done | awk '!seen[$0]++' >&2)
-    rm -rf params/.new params/.asked.new
-    exit "$failed"
-  fi
-  rm -f params/.new/*.errors
-  # For the next work folder; where the programs lie may not be writable.
-  {
-    cp -R params/.new "$BUILD/parameters.$$" && cp params/.asked.new "$BUILD/parameters.$$/.asked" &&
-      rm -rf "$BUILD/parameters" && mv -T "$BUILD/parameters.$$" "$BUILD/parameters"
-  } 2> /dev/null || rm -rf "$BUILD/parameters.$$"
-}
-
-refresh() {
-  record_scan
-  record_stations
-  record_edit
-  record_params
-}
-
+# rules [--again STAGE] GOAL …: runs what is not what it should be, up to and including the goals.
 rules() {
+  plan=$(pipeline_table | "$BIN/artefact" plan --scan "$SCAN" "$@")
+  must=${plan%%
+*}
+  if [ -z "$must" ]; then
+    settle_inputs 0
+    return
+  fi
+  if [ "$1" = --again ]; then shift 2; fi
   # Memory that is fresh costs more than most of what is done with it. So: one heap for all threads, which is kept and used again,
   # instead of every large array being mapped and unmapped by itself; and pages of 2 MB where the system has them, but for ingest,
   # which uses too much memory once only: clearing 2 MB at a time empties the processor's caches.
   heap=glibc.malloc.arena_max=1:glibc.malloc.mmap_threshold=1073741824:glibc.malloc.trim_threshold=4294967296
+  failed=0
   ROOMCUT_INGEST_HEAP=${GLIBC_TUNABLES:-$heap} \
   GLIBC_TUNABLES=${GLIBC_TUNABLES:-$heap:glibc.malloc.hugetlb=1} \
+  ROOMCUT_MUST=$must ROOMCUT_MAY=${plan#"$must"} \
   ROOMCUT_BIN=$BIN ROOMCUT_SCAN=$SCAN ROOMCUT_UP=$UP ROOMCUT_UNIT=$UNIT ROOMCUT_THREADS=$JOBS ROOMCUT_VERBOSITY=${QUIET:+-q} \
-    "${MAKE:-make}" -f "$root/stages/pipeline.mk" "$@"
+    "${MAKE:-make}" -f "$root/stages/pipeline.mk" "$@" || failed=$?
+  settle_inputs $failed
+  [ $failed -eq 0 ] || exit $failed
 }
 
 known_stage() {
-  case " $stages final_partition final_weigh_faces final_raycast final_graphcut " in
+  case " $runs " in
     *" $1 "*) ;;
-    *) fail "there is no stage $1" "the stages are: $stages" ;;
+    *) fail "there is no stage $1" "the stages are: $runs" ;;
   esac
 }
 
-outputs_of() { # what the last stamp of a stage lists
-  cut -d ' ' -f 4- "stamps/$1" 2> /dev/null || cut -d ' ' -f 4- "stamps/$1.before" 2> /dev/null || true
+# Those of the table's runs that have a stamp here.
+stamped() {
+  for name in $runs; do
+    if [ -f "stamps/$name" ]; then echo "$name"; fi
+  done
 }
 
+# What a run would do, found out beside the work folder, which is left as it is: with its own copy of what run would write.
 show_status() {
-  : > stamps/.status
-  rules table > stamps/.table
-  (export ROOMCUT_STATUS=1 && rules run > /dev/null)
+  shadow=$(mktemp -d) || exit 5
+  trap 'rm -rf "$shadow"' EXIT
+  for entry in "$WORK"/*; do
+    case ${entry##*/} in inputs | params) ;; *) if [ -e "$entry" ]; then ln -s "$entry" "$shadow/"; fi ;; esac
+  done
+  mkdir "$shadow/inputs" "$shadow/params"
+  for folder in inputs params; do
+    cp "$WORK/$folder"/* "$shadow/$folder/" 2> /dev/null || true
+  done
+  if [ -f "$WORK/params/.asked" ]; then cp "$WORK/params/.asked" "$shadow/params/"; fi
+  cd "$shadow"
+  refresh
   echo "$WORK"
-  echo "  scan  $SCAN (up $UP, unit $UNIT)"
-  if [ -f edits/wall_lines.geojson ]; then echo "  edit  $WORK/edits/wall_lines.geojson is in force"; fi
-  failed=0
-  "$BIN/artefact" status stamps/.table stamps/.status || failed=$?
-  rm -f stamps/.status stamps/.table
-  return $failed
+  echo "  scan    $SCAN (up $UP, unit $UNIT)"
+  echo "  config  ${config_path:-${CONFIG:-none}}${config_path:+ (CONFIG= given; CONFIG=none goes back to pipeline.yaml)}"
+  if [ -f edits/wall_lines.geojson ]; then echo "  edit    $WORK/edits/wall_lines.geojson is in force"; fi
+  pipeline_table | "$BIN/artefact" status --scan "$SCAN"
 }
 
 edit_lines() {
@@ -305,7 +219,8 @@ compare() {
   B=$(cd "$B" && pwd)
   [ -x "$BUILD/bin/compare" ] || fail "$BUILD/bin: the programs are not built" "make build"
   found=$B/compare/${A##*/}
-  mkdir -p "$found" 2> /dev/null || { echo "error[O01] $found: the folder cannot be made" >&2; exit 5; }
+  why=$(LC_ALL=C mkdir -p "$found" 2>&1) || complain O01 "$found: the folder cannot be made: ${why##*: }" \
+    "what is found goes into B: name a folder there that you may write, or change A and B" 5
   rm -f "$found/distance.json" "$found/distance.png"
   if [ -f "$A/model.ply" ] && [ -f "$B/model.ply" ]; then
     "$BUILD/bin/evaluate" --work "$found" --model "$B/model.ply" --truth "$A/model.ply" --scores "$found/distance.json" \
@@ -316,45 +231,53 @@ compare() {
   exit 0
 }
 
-# A stage again, and of what follows only what was made before and is changed by it.
-rerun() {
-  if [ -f "stamps/$1" ]; then mv -f "stamps/$1" "stamps/$1.before"; fi
-  rules "$1"
-  after=
-  for stamp in stamps/*; do
-    case $stamp in *.before | 'stamps/*') ;; *) after="$after ${stamp#stamps/}" ;; esac
-  done
-  rules $after
-}
-
+# Deletes what the table says that a stage writes, whatever the folder's own files say.
 clean() {
-  outputs_of "$1" | while IFS= read -r file; do rm -f "$file"; done
+  line=$(pipeline_table | grep "^$1 ")
+  files=${line#* : }
+  files=${files%% : *}
+  for file in $files; do
+    case $file in
+      */*) [ ! -L "${file%/*}" ] || fail "$WORK/${file%/*}: is a link to another folder" "delete it, or what is in it, yourself" ;;
+    esac
+    if [ -f "$file" ] || [ -L "$file" ]; then rm -f "$file"; fi
+  done
   rm -f "stamps/$1" "stamps/$1.before" "logs/$1.json"
   rmdir [0-9]*_* 2> /dev/null || true
 }
 
 command=$1
 shift
+check_jobs
 if [ "$command" = compare ]; then
   BUILD=$(absolute "$BUILD")
   compare
 fi
 find_work_folder
-case $command in
-  run | edit-lines | layers | evaluate | rerun | plot)
-    [ -d "$WORK/inputs" ] || [ -e "$SCAN" ] || { echo "error[C01] $SCAN: there is no such file" >&2; exit 3; } ;;
-esac
 for name in "$@"; do known_stage "$name"; done
-if [ "$command" = view ]; then view; fi
-take_lock
+case $command in
+  clean | drop-edit | verify) ;;
+  *) check_scan ;;
+esac
+check_work_folder
+case $command in
+  view) view ;;
+  status) if [ -d "$WORK" ]; then enter_to_read; fi ;;
+  verify) enter_to_read ;;
+  clean | drop-edit)
+    [ -d "$WORK" ] || fail "$WORK: there is no such work folder" "make run SCAN=office.ply makes one"
+    take_lock ;;
+  *) take_lock ;;
+esac
 case $command in
   run)
     refresh
     rules "${@:-run}"
     if [ $# -eq 0 ] && [ -z "$QUIET" ]; then echo "up to date: $WORK/model.ply, model.obj, summary.json, report.html"; fi ;;
   rerun)
+    # Of what follows only what was made before, and is changed by it.
     refresh
-    rerun "$1" ;;
+    rules --again "$1" "$1" $(stamped) ;;
   edit-lines)
     [ ! -f edits/wall_lines.geojson ] || fail "$WORK/edits/wall_lines.geojson: an edit is there already" \
       "go on with it, or make drop-edit first (it is moved aside, not deleted)"
@@ -372,10 +295,8 @@ case $command in
     rules detect_lines
     "$BIN/diff_lines" --work . ;;
   drop-edit) drop_edit ;;
-  status)
-    refresh
-    show_status ;;
-  verify) "$BIN/artefact" verify --schemas "$root/schemas" --scan "$SCAN" $(ls stamps/* 2> /dev/null | grep -v '\.before$') ;;
+  status) show_status ;;
+  verify) "$BIN/artefact" verify --schemas "$root/schemas" --scan "$SCAN" $(stamped | sed 's|^|stamps/|') ;;
   clean) clean "$1" ;;
   evaluate)
     [ -n "$TRUTH" ] || fail "make evaluate: no truth given" "make evaluate SCAN=… TRUTH=truth.off"

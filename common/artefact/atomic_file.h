@@ -30,7 +30,7 @@ class AtomicFile {
   void start_writing_out() const noexcept;
 
   /// fsync of the file, rename, fsync of the folder. With `keep_time` the file takes over the modification
-  /// time of the one that it replaces: Make then sees nothing new. Throws StageError(kCannotWrite).
+  /// time of the one that it replaces: for people, nothing is new. Throws StageError(kCannotWrite).
   void commit(bool keep_time = false);
 
  private:

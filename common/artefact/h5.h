@@ -67,7 +67,18 @@ ROOMCUT_H5_TYPE(float)
 ROOMCUT_H5_TYPE(double)
 #undef ROOMCUT_H5_TYPE
 
+/// "f32", "i64", "u8" …
+template <class T>
+std::string number_name() {
+  return (std::is_floating_point_v<T> ? "f"
+          : std::is_signed_v<T>       ? "i"
+                                      : "u") +
+         std::to_string(8 * sizeof(T));
+}
+
 using Shape = std::vector<std::uint64_t>;  ///< e.g. {N} or {N, 3}; row-major
+
+class Content;
 
 }  // namespace h5
 
@@ -95,11 +106,15 @@ class H5Writer {
   }
 
   /// Begins a dataset of `shape` that is filled by append() in order, in blocks: nothing is held back in
-  /// memory.
+  /// memory. With `checksum_column` the caller writes the table of its blocks' checksums (h5_blocks.h), and
+  /// the payload digest covers that instead of the bytes.
   template <class T>
   void begin(const std::string& path, const h5::Shape& shape, std::string_view unit,
-             std::string_view description) {
+             std::string_view description, std::optional<std::int64_t> checksum_column = {}) {
     begin_raw(path, h5::memory_type<T>(), h5::file_type<T>(), sizeof(T), shape, unit, description);
+    if (checksum_column) {
+      sum_blocks(path, *checksum_column);
+    }
   }
   template <class T>
   void append(const std::string& path, std::span<const T> data) {
@@ -124,39 +139,49 @@ class H5Writer {
   void begin_raw(const std::string& path, hid_t memory_type, hid_t file_type, std::size_t size,
                  const h5::Shape& shape, std::string_view unit, std::string_view description);
   void append_raw(const std::string& path, const void* data, std::size_t count, std::size_t size);
+  void sum_blocks(const std::string& path, std::int64_t checksum_column);
   std::unique_ptr<State> state_;
 };
 
 /// Reads an HDF5 artefact. The constructor checks that the file is one, of this type, of a version it can
-/// read. Errors: kArtefactMissing, kArtefactDamaged, kArtefactType, kArtefactVersion; the message names file
-/// and object.
+/// read, and that what it holds has the payload digest that it states (datasets whose blocks have checksums:
+/// those; check each block with BlockChecksums as it is read). Nothing but what was checked can be asked for.
+/// Errors: kArtefactMissing, kArtefactDamaged, kArtefactType, kArtefactVersion; the message names file and
+/// object. Reading is thread-safe.
 class H5Reader {
  public:
   H5Reader(const std::filesystem::path& path, ArtefactType expected);
   ~H5Reader();
   H5Reader(H5Reader&&) noexcept;
 
-  /// The whole dataset, flattened row-major; checks that the number of dimensions and the inner sizes fit
-  /// `shape` when given (0 = any size).
+  /// The whole dataset, flattened row-major; checks that it holds this very type, and that the number of
+  /// dimensions and the sizes fit `shape` when given (0 = any size).
   template <class T>
   std::vector<T> read(const std::string& path, const h5::Shape& shape = {}) const {
     const h5::Shape actual = checked_shape(path, shape);
     std::size_t count = 1;
     for (const auto n : actual) count *= n;
+    require_type<T>(path);
     std::vector<T> data(count);
-    if (count > 0) read_raw(path, data.data(), h5::memory_type<T>(), 0, actual.empty() ? 1 : actual[0]);
+    read_raw(path, data.data(), 0, actual[0]);
     return data;
   }
   /// Rows [first, first+count) of a dataset into `out` (count × inner sizes elements).
   template <class T>
   void read_rows(const std::string& path, std::uint64_t first, std::uint64_t count, T* out) const {
-    read_raw(path, out, h5::memory_type<T>(), first, count);
+    require_type<T>(path);
+    read_raw(path, out, first, count);
   }
+  /// Throws kArtefactDamaged unless the dataset holds numbers of type T.
+  template <class T>
+  void require_type(const std::string& path) const {
+    require_type(path, h5::number_name<T>());
+  }
+  void require_type(const std::string& path, const std::string& type) const;
   h5::Shape shape(const std::string& path) const { return checked_shape(path, {}); }
   bool exists(const std::string& path) const;
-  /// Where the dataset's bytes begin in the file: contiguous, little-endian, never compressed, so that a
-  /// reader of a big cloud may use pread from several threads. Throws kArtefactDamaged when the dataset is
-  /// chunked or has no bytes.
+  /// Where the dataset's bytes begin in the file: contiguous, little-endian, never compressed. Throws
+  /// kArtefactDamaged when there are none.
   std::uint64_t contiguous_offset(const std::string& path) const;
   double attribute_double(const std::string& object_path, const std::string& name) const;
   std::int64_t attribute_int(const std::string& object_path, const std::string& name) const;
@@ -166,27 +191,31 @@ class H5Reader {
   const Provenance& provenance() const;
   const std::string& payload_sha256() const;
   const std::filesystem::path& path() const;
+  /// All that the file holds (h5_content.h).
+  const h5::Content& content() const;
   /// kArtefactDamaged with this file's name.
   [[noreturn]] void damaged(const std::string& object_path, const std::string& what) const;
 
  private:
   struct State;
   h5::Shape checked_shape(const std::string& path, const h5::Shape& expected) const;
-  void read_raw(const std::string& path, void* out, hid_t memory_type, std::uint64_t first,
-                std::uint64_t count) const;
+  void read_raw(const std::string& path, void* out, std::uint64_t first, std::uint64_t count) const;
   std::unique_ptr<State> state_;
 };
 
 /// The provenance of an artefact of any type. Errors as H5Reader.
 Provenance read_provenance(const std::filesystem::path& path);
 
-/// The payload digest computed again from everything that the file holds except its provenance: HDF5
-/// artefacts and plain JSON ones (wall_lines.geojson has its own: wall_lines_payload_sha256()). Reads all
-/// data. Errors as H5Reader.
-std::string recompute_payload_sha256(const std::filesystem::path& path);
+/// What an HDF5 artefact or a plain JSON one states of itself, after all that it holds was compared with its
+/// digest and its blocks' checksums. (Any artefact: common/artefact_digest.) Errors as H5Reader.
+InputRecord verified_plain_artefact(const std::filesystem::path& path);
 
 /// The payload digest stored in an artefact of any type (HDF5, or JSON with a `provenance` member), its type
 /// and version, without reading the data; for any other file the digest of its bytes, with type "".
 InputRecord inspect_artefact(const std::filesystem::path& path);
+
+/// What an artefact of any type states of itself, from the file as it is now; empty for any other file, and
+/// for an HDF5 file whose structure is damaged. Throws kArtefactMissing.
+InputRecord stated_artefact(const std::filesystem::path& path);
 
 }  // namespace roomcut

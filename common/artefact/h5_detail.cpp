@@ -96,21 +96,6 @@ bool write_attribute(hid_t object, const std::string& name, hid_t file, hid_t me
   return attribute.valid() && H5Awrite(attribute.get(), memory, value) >= 0;
 }
 
-/// The attribute, if it holds `count` values of the class.
-Handle open_attribute(hid_t object, const std::string& name, H5T_class_t wanted, hssize_t count = 1) {
-  if (H5Aexists(object, name.c_str()) <= 0) {
-    return {};
-  }
-  Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose);
-  const Handle type(H5Aget_type(attribute.get()), H5Tclose);
-  const Handle space(H5Aget_space(attribute.get()), H5Sclose);
-  if (!attribute.valid() || H5Tget_class(type.get()) != wanted ||
-      H5Sget_simple_extent_npoints(space.get()) != count) {
-    return {};
-  }
-  return attribute;
-}
-
 }  // namespace
 
 bool write_text_attribute(hid_t object, const std::string& name, const std::string& value) {
@@ -124,59 +109,9 @@ bool write_number_attribute(hid_t object, const std::string& name, std::int64_t 
   return write_attribute(object, name, H5T_STD_I64LE, H5T_NATIVE_INT64, &value);
 }
 
-bool write_vector_attribute(hid_t object, const std::string& name, const double (&value)[3]) {
-  return write_attribute(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, value, 3);
+bool write_vector_attribute(hid_t object, const std::string& name, const std::array<double, 3>& value) {
+  return write_attribute(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, value.data(), 3);
 }
-bool read_vector_attribute(hid_t object, const std::string& name, double (&value)[3]) {
-  const Handle attribute = open_attribute(object, name, H5T_FLOAT, 3);
-  return attribute.valid() && H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, value) >= 0;
-}
-
-bool read_text_attribute(hid_t object, const std::string& name, std::string& value) {
-  const Handle attribute = open_attribute(object, name, H5T_STRING);
-  const Handle type(attribute.valid() ? H5Aget_type(attribute.get()) : -1, H5Tclose);
-  if (!type.valid() || H5Tis_variable_str(type.get()) != 0) {
-    return false;
-  }
-  const std::size_t size = H5Tget_size(type.get());
-  std::string text(size, '\0');
-  const Handle memory = text_type(size);
-  if (H5Aread(attribute.get(), memory.get(), text.data()) < 0) {
-    return false;
-  }
-  text.resize(text.find_last_not_of('\0') + 1);
-  value = text;
-  return true;
-}
-bool read_number_attribute(hid_t object, const std::string& name, double& value) {
-  const Handle attribute = open_attribute(object, name, H5T_FLOAT);
-  return attribute.valid() && H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, &value) >= 0;
-}
-bool read_number_attribute(hid_t object, const std::string& name, std::int64_t& value) {
-  const Handle attribute = open_attribute(object, name, H5T_INTEGER);
-  return attribute.valid() && H5Aread(attribute.get(), H5T_NATIVE_INT64, &value) >= 0;
-}
-
-std::string type_name(hid_t type) {
-  const std::string bits = std::to_string(8 * H5Tget_size(type));
-  switch (H5Tget_class(type)) {
-    case H5T_FLOAT:
-      return "f" + bits;
-    case H5T_INTEGER:
-      return (H5Tget_sign(type) == H5T_SGN_NONE ? "u" : "i") + bits;
-    default:
-      return "";
-  }
-}
-
-Handle open_for_reading(const std::filesystem::path& path) {
-  prepare_library();
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  // Files are never changed in place, so a lock protects nothing, and some network file systems have none.
-  H5Pset_file_locking(access.get(), false, true);
-  return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose};
-}
-
 void PayloadDigest::dataset(const std::string& path, const std::string& type, const Shape& shape,
                             const std::string& sha256) {
   std::string text = type;
@@ -199,7 +134,7 @@ void PayloadDigest::attribute(const std::string& object_path, const std::string&
   entries_["a " + object_path + " " + name] = "f64 " + hex_text(value);
 }
 void PayloadDigest::attribute(const std::string& object_path, const std::string& name,
-                              const double (&value)[3]) {
+                              const std::array<double, 3>& value) {
   entries_["a " + object_path + " " + name] =
       "f64 3 " + hex_text(value[0]) + " " + hex_text(value[1]) + " " + hex_text(value[2]);
 }

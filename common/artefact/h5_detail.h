@@ -3,12 +3,13 @@
 
 #include <hdf5.h>
 
+#include <array>
 #include <map>
 #include <string>
 
 #include "common/artefact/h5.h"
 
-/// What the HDF5 reader, writer and inspector share; not for stages.
+/// What the HDF5 writer and readers share; not for stages.
 namespace roomcut::h5 {
 
 /// Silences the library's own error printing, in this thread, and its clean-up at exit; cheap after the first
@@ -21,23 +22,12 @@ std::string last_error();
 /// "/levels/z" for "levels/z"; "/" for "" and "/".
 std::string absolute_path(const std::string& path);
 
-/// Attributes of scalar type only: float64, int64, fixed-length UTF-8 text. Return false or an invalid handle
-/// on failure.
+/// Attributes: float64, int64, fixed-length UTF-8 text; three float64 for the one vector that artefacts have,
+/// the frame's origin. Return false on failure.
 bool write_text_attribute(hid_t object, const std::string& name, const std::string& value);
 bool write_number_attribute(hid_t object, const std::string& name, double value);
 bool write_number_attribute(hid_t object, const std::string& name, std::int64_t value);
-/// Three float64: the one vector that artefacts have as attribute, the frame's origin.
-bool write_vector_attribute(hid_t object, const std::string& name, const double (&value)[3]);
-bool read_vector_attribute(hid_t object, const std::string& name, double (&value)[3]);
-bool read_text_attribute(hid_t object, const std::string& name, std::string& value);
-bool read_number_attribute(hid_t object, const std::string& name, double& value);
-bool read_number_attribute(hid_t object, const std::string& name, std::int64_t& value);
-
-/// "f32", "i64", "u8" …; "" for types that no artefact uses.
-std::string type_name(hid_t type);
-
-/// Opens an existing file for reading, or gives an invalid handle.
-Handle open_for_reading(const std::filesystem::path& path);
+bool write_vector_attribute(hid_t object, const std::string& name, const std::array<double, 3>& value);
 
 /// One line per dataset and attribute of the payload; the digest is taken over them in sorted order.
 class PayloadDigest {
@@ -47,7 +37,7 @@ class PayloadDigest {
   void attribute(const std::string& object_path, const std::string& name, double value);
   void attribute(const std::string& object_path, const std::string& name, std::int64_t value);
   void attribute(const std::string& object_path, const std::string& name, const std::string& value);
-  void attribute(const std::string& object_path, const std::string& name, const double (&value)[3]);
+  void attribute(const std::string& object_path, const std::string& name, const std::array<double, 3>& value);
   std::string hex() const;
 
  private:

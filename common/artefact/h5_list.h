@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -20,7 +19,7 @@ struct DatasetInfo {
 };
 
 /// The datasets of a group, in alphabetical order; none when there is no such group. For readers that show
-/// what is there, whatever it is called. Errors: kArtefactDamaged when the file cannot be opened.
-std::vector<DatasetInfo> list_datasets(const std::filesystem::path& path, const std::string& group);
+/// what is there, whatever it is called.
+std::vector<DatasetInfo> list_datasets(const H5Reader& file, const std::string& group);
 
 }  // namespace roomcut

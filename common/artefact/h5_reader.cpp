@@ -1,165 +1,59 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cerrno>
-#include <cstring>
-#include <limits>
+#include <algorithm>
 
 #include "common/artefact/artefact_check.h"
-#include "common/artefact/h5_detail.h"
+#include "common/artefact/h5_content.h"
 #include "common/artefact/known_artefacts.h"
-#include "common/errors/codes.h"
 
 namespace roomcut {
 
-using h5::Handle;
-
 struct H5Reader::State {
-  std::filesystem::path path;
-  Handle file;
+  h5::Content content;
   Frame frame;
   Provenance provenance;
   std::string payload;
-  std::string opened;  ///< path of `dataset`
-  Handle dataset;      ///< the one asked for last: first its shape is asked for, then its values
-
-  hid_t open(const std::string& dataset_path);
 };
 
 namespace {
 
-constexpr const char* kRemedy = "make it again: delete the file and run make";
-
-[[noreturn]] void throw_damaged(const std::filesystem::path& path, const std::string& object,
-                                const std::string& what) {
-  throw StageError(errors::kArtefactDamaged, path.string() + ": " + h5::absolute_path(object), what, kRemedy);
+Frame frame_of(const h5::Content& content) {
+  Frame frame;
+  frame.unit = content.attribute<std::string>("/frame", "unit");
+  frame.up = content.attribute<std::string>("/frame", "up");
+  const auto& origin = content.attribute<std::array<double, 3>>("/frame", "origin");
+  std::copy(origin.begin(), origin.end(), std::begin(frame.origin));
+  require_sane(content.path(), frame);
+  return frame;
 }
 
-Handle open_artefact(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) {
-    throw StageError(errors::kArtefactMissing, path.string(), "there is no such file",
-                     "run the stage that writes it (make run makes all of them)");
-  }
-  if (!std::filesystem::is_regular_file(status)) {
-    throw StageError(errors::kArtefactMissing, path.string(), "is not a file");
-  }
-  Handle file = h5::open_for_reading(path);
-  if (!file.valid()) {
-    throw StageError(errors::kArtefactDamaged, path.string(), "cannot be opened as HDF5: " + h5::last_error(),
-                     kRemedy);
-  }
-  return file;
-}
-
-h5::Shape shape_of(hid_t dataset) {
-  const Handle space(H5Dget_space(dataset), H5Sclose);
-  const int dimensions = H5Sget_simple_extent_ndims(space.get());
-  std::vector<hsize_t> sizes(dimensions > 0 ? static_cast<std::size_t>(dimensions) : 0);
-  if (!sizes.empty()) {
-    H5Sget_simple_extent_dims(space.get(), sizes.data(), nullptr);
-  }
-  return {sizes.begin(), sizes.end()};
-}
-
-class AttributeReader {
- public:
-  AttributeReader(const std::filesystem::path& file_path, hid_t file, const std::string& object_path)
-      : file_path_(file_path),
-        path_(h5::absolute_path(object_path)),
-        object_(H5Oopen(file, path_.c_str(), H5P_DEFAULT), H5Oclose) {}
-  std::string text(const std::string& name) const {
-    std::string value;
-    require(object_.valid() && h5::read_text_attribute(object_.get(), name, value), name);
-    return value;
-  }
-  double number(const std::string& name) const {
-    double value = 0;
-    require(object_.valid() && h5::read_number_attribute(object_.get(), name, value), name);
-    return value;
-  }
-  std::int64_t integer(const std::string& name) const {
-    std::int64_t value = 0;
-    require(object_.valid() && h5::read_number_attribute(object_.get(), name, value), name);
-    return value;
-  }
-
- private:
-  void require(bool good, const std::string& name) const {
-    if (!good) {
-      throw_damaged(file_path_, path_, "attribute " + name + " is missing or of another type");
-    }
-  }
-  const std::filesystem::path& file_path_;
-  std::string path_;
-  Handle object_;
-};
-
-std::vector<std::string> children(hid_t file, const std::string& group_path) {
-  std::vector<std::string> names;
-  const Handle group(H5Gopen2(file, group_path.c_str(), H5P_DEFAULT), H5Gclose);
-  const auto collect = [](hid_t /*group*/, const char* name, const H5L_info_t* /*info*/,
-                          void* out) -> herr_t {
-    static_cast<std::vector<std::string>*>(out)->emplace_back(name);
-    return 0;
-  };
-  if (group.valid()) {
-    H5Literate(group.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names);
-  }
-  return names;
-}
-
-Provenance read_provenance(const std::filesystem::path& path, hid_t file) {
+Provenance provenance_of(const h5::Content& content) {
+  const std::string root = "/provenance";
+  const std::string inputs = root + "/inputs/";
   Provenance provenance;
-  const AttributeReader root(path, file, "/provenance");
-  provenance.stage = root.text("stage");
-  provenance.stage_revision = static_cast<int>(root.integer("stage_revision"));
-  provenance.params_json = root.text("params_json");
-  provenance.params_sha256 = root.text("params_sha256");
-  for (const std::string& name : children(file, "/provenance/inputs")) {
-    const AttributeReader input(path, file, "/provenance/inputs/" + name);
-    provenance.inputs.push_back({name, input.text("artefact"), input.text("schema_version"),
-                                 input.text("payload_sha256"), input.text("path")});
+  provenance.stage = content.attribute<std::string>(root, "stage");
+  provenance.stage_revision = static_cast<int>(content.attribute<std::int64_t>(root, "stage_revision"));
+  provenance.params_json = content.attribute<std::string>(root, "params_json");
+  provenance.params_sha256 = content.attribute<std::string>(root, "params_sha256");
+  for (auto found = content.objects().lower_bound(inputs);
+       found != content.objects().end() && found->first.starts_with(inputs); ++found) {
+    const auto word = [&](const char* name) { return content.attribute<std::string>(found->first, name); };
+    provenance.inputs.push_back({found->first.substr(inputs.size()), word("artefact"), word("schema_version"),
+                                 word("payload_sha256"), word("path")});
   }
   return provenance;
 }
 
 }  // namespace
 
-hid_t H5Reader::State::open(const std::string& dataset_path) {
-  h5::prepare_library();
-  const std::string name = h5::absolute_path(dataset_path);
-  if (opened != name) {
-    opened.clear();
-    dataset = Handle(H5Dopen2(file.get(), name.c_str(), H5P_DEFAULT), H5Dclose);
-    if (!dataset.valid()) {
-      throw_damaged(path, dataset_path, "the dataset is missing");
-    }
-    opened = name;
-  }
-  return dataset.get();
-}
-
-H5Reader::H5Reader(const std::filesystem::path& path, ArtefactType expected)
-    : state_(std::make_unique<State>()) {
-  state_->path = path;
-  state_->file = open_artefact(path);
-  const hid_t file = state_->file.get();
-  const Handle root(H5Oopen(file, "/", H5P_DEFAULT), H5Oclose);
-  std::string artefact;
-  std::string version;
-  h5::read_text_attribute(root.get(), "artefact", artefact);
-  h5::read_text_attribute(root.get(), "schema_version", version);
-  check_type_and_version(path, artefact, version, expected);
-  const AttributeReader frame(path, file, "/frame");
-  state_->frame.unit = frame.text("unit");
-  state_->frame.up = frame.text("up");
-  const Handle group(H5Gopen2(file, "/frame", H5P_DEFAULT), H5Gclose);
-  if (!h5::read_vector_attribute(group.get(), "origin", state_->frame.origin)) {
-    throw_damaged(path, "/frame", "attribute origin is missing or of another type");
-  }
-  state_->provenance = read_provenance(path, file);
-  state_->payload = AttributeReader(path, file, "/provenance").text("payload_sha256");
-  remember_artefact(path, {"", artefact, version, state_->payload, ""});
+H5Reader::H5Reader(const std::filesystem::path& path, ArtefactType expected) {
+  h5::Content content(path, &expected);
+  Frame frame = frame_of(content);
+  Provenance provenance = provenance_of(content);
+  std::string payload = content.attribute<std::string>("/provenance", "payload_sha256");
+  require_payload(path, payload, content.payload_sha256());
+  remember_artefact(path, content.stated());
+  state_ = std::make_unique<State>(
+      State{std::move(content), std::move(frame), std::move(provenance), std::move(payload)});
 }
 
 H5Reader::~H5Reader() = default;
@@ -175,105 +69,66 @@ const std::string& H5Reader::payload_sha256() const {
   return state_->payload;
 }
 const std::filesystem::path& H5Reader::path() const {
-  return state_->path;
+  return state_->content.path();
+}
+const h5::Content& H5Reader::content() const {
+  return state_->content;
 }
 
 void H5Reader::damaged(const std::string& object_path, const std::string& what) const {
-  throw_damaged(state_->path, object_path, what);
+  throw_damaged(path(), h5::absolute_path(object_path), what);
 }
 
 bool H5Reader::exists(const std::string& path) const {
-  const std::string name = h5::absolute_path(path);
-  for (std::size_t slash = name.find('/', 1);; slash = name.find('/', slash + 1)) {
-    if (H5Lexists(state_->file.get(), name.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) {
-      return false;
-    }
-    if (slash == std::string::npos) {
-      return true;
-    }
-  }
+  return state_->content.objects().contains(h5::absolute_path(path));
 }
 
 h5::Shape H5Reader::checked_shape(const std::string& path, const h5::Shape& expected) const {
-  const hid_t dataset = state_->open(path);
-  h5::Shape actual = shape_of(dataset);
-  bool fits = !actual.empty() && (expected.empty() || expected.size() == actual.size());
+  const h5::Shape& actual = state_->content.dataset(path).shape;
+  bool fits = expected.empty() || expected.size() == actual.size();
   for (std::size_t i = 0; fits && i < expected.size(); ++i) {
     fits = expected[i] == 0 || expected[i] == actual[i];
   }
   if (!fits) {
     damaged(path, "the dataset has an unexpected shape");
   }
-  const Handle type(H5Dget_type(dataset), H5Tclose);
-  if (h5::type_name(type.get()).empty()) {
-    damaged(path, "the dataset does not hold numbers");
-  }
-  // A header may promise anything: the bytes must be there before anybody makes room for them.
-  std::uint64_t bytes = H5Tget_size(type.get());
-  for (const std::uint64_t n : actual) {
-    if (n != 0 && bytes > std::numeric_limits<std::uint64_t>::max() / n) {
-      damaged(path, "the dataset claims an impossible size");
-    }
-    bytes *= n;
-  }
-  if (bytes > 0 && H5Dget_storage_size(dataset) == 0) {
-    damaged(path, "the dataset has no data");
-  }
-  if (bytes > 0 && H5Dget_offset(dataset) != HADDR_UNDEF) {
-    hsize_t end = 0;
-    H5Fget_filesize(state_->file.get(), &end);
-    const std::uint64_t begin = H5Dget_offset(dataset);
-    if (begin > end || bytes > end - begin) {
-      damaged(path, "the file ends before the dataset does");
-    }
-  }
   return actual;
 }
 
 std::uint64_t H5Reader::contiguous_offset(const std::string& path) const {
-  const hid_t dataset = state_->open(path);
-  const haddr_t offset = H5Dget_offset(dataset);
-  if (offset == HADDR_UNDEF) {
-    damaged(path, "the dataset is not contiguous, or empty");
+  const h5::StoredDataset& dataset = state_->content.dataset(path);
+  if (dataset.bytes == 0) {
+    damaged(path, "the dataset is empty");
   }
-  return offset;
+  return dataset.offset;
 }
 
-void H5Reader::read_raw(const std::string& path, void* out, hid_t memory_type, std::uint64_t first,
-                        std::uint64_t count) const {
-  if (count == 0) {
-    return;
-  }
-  const hid_t dataset = state_->open(path);
-  const h5::Shape shape = shape_of(dataset);
-  if (shape.empty() || first > shape[0] || count > shape[0] - first) {
-    damaged(path, "the dataset has fewer rows than expected");
-  }
-  const Handle type(H5Dget_type(dataset), H5Tclose);
-  if (H5Tget_class(type.get()) != H5Tget_class(memory_type)) {
+void H5Reader::require_type(const std::string& path, const std::string& type) const {
+  if (state_->content.dataset(path).type != type) {
     damaged(path, "the dataset holds another type of number");
   }
-  std::vector<hsize_t> start(shape.size(), 0);
-  std::vector<hsize_t> extent(shape.begin(), shape.end());
-  start[0] = first;
-  extent[0] = count;
-  const Handle file_space(H5Dget_space(dataset), H5Sclose);
-  const Handle memory_space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
-                            H5Sclose);
-  H5Sselect_hyperslab(file_space.get(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr);
-  if (H5Dread(dataset, memory_type, memory_space.get(), file_space.get(), H5P_DEFAULT, out) < 0) {
-    damaged(path, "the dataset cannot be read: " + h5::last_error());
+}
+
+void H5Reader::read_raw(const std::string& path, void* out, std::uint64_t first, std::uint64_t count) const {
+  const h5::StoredDataset& dataset = state_->content.dataset(path);
+  const std::uint64_t rows = dataset.shape[0];
+  if (first > rows || count > rows - first) {
+    damaged(path, "the dataset has fewer rows than expected");
+  }
+  if (dataset.bytes > 0) {
+    const std::uint64_t row = dataset.bytes / rows;
+    state_->content.read(path, dataset, first * row, count * row, out);
   }
 }
 
 double H5Reader::attribute_double(const std::string& object_path, const std::string& name) const {
-  return AttributeReader(state_->path, state_->file.get(), object_path).number(name);
+  return state_->content.attribute<double>(object_path, name);
 }
 std::int64_t H5Reader::attribute_int(const std::string& object_path, const std::string& name) const {
-  return AttributeReader(state_->path, state_->file.get(), object_path).integer(name);
+  return state_->content.attribute<std::int64_t>(object_path, name);
 }
 std::string H5Reader::attribute_string(const std::string& object_path, const std::string& name) const {
-  return AttributeReader(state_->path, state_->file.get(), object_path).text(name);
+  return state_->content.attribute<std::string>(object_path, name);
 }
 
 }  // namespace roomcut

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <limits>
+#include <array>
 #include <stdexcept>
 
 #include "common/artefact/artefact_check.h"
-#include "common/artefact/h5_detail.h"
+#include "common/artefact/h5_content.h"
 #include "common/artefact/known_artefacts.h"
 #include "common/errors/codes.h"
 
@@ -19,6 +19,7 @@ struct H5Writer::Stream {
   std::uint64_t total = 1;  ///< elements
   std::uint64_t done = 0;
   std::string type;
+  bool by_checksums = false;  ///< not hashed here
   Sha256 sha;
 };
 
@@ -60,6 +61,12 @@ Handle untimed(hid_t kind) {
   return list;
 }
 
+/// "f32", "i64", "u8" …
+std::string type_name(hid_t type) {
+  const char* kind = H5Tget_class(type) == H5T_FLOAT ? "f" : H5Tget_sign(type) == H5T_SGN_NONE ? "u" : "i";
+  return kind + std::to_string(8 * H5Tget_size(type));
+}
+
 /// Makes the groups above `path`.
 bool make_parents(hid_t file, const std::string& path) {
   for (std::size_t slash = path.find('/', 1); slash != std::string::npos; slash = path.find('/', slash + 1)) {
@@ -96,9 +103,10 @@ H5Writer::H5Writer(const std::filesystem::path& path, ArtefactType type, const P
   }
   attribute("/frame", "unit", frame.unit);
   attribute("/frame", "up", frame.up);
+  const std::array<double, 3> origin = std::to_array(frame.origin);
   const Handle group(H5Gopen2(state_->file.get(), "/frame", H5P_DEFAULT), H5Gclose);
-  state_->require(h5::write_vector_attribute(group.get(), "origin", frame.origin), "/frame@origin");
-  state_->digest.attribute("/frame", "origin", frame.origin);
+  state_->require(h5::write_vector_attribute(group.get(), "origin", origin), "/frame@origin");
+  state_->digest.attribute("/frame", "origin", origin);
 }
 
 H5Writer::~H5Writer() = default;
@@ -114,7 +122,7 @@ void H5Writer::begin_raw(const std::string& path, hid_t memory_type, hid_t file_
   stream.memory_type = memory_type;
   stream.item_bytes = size;
   stream.shape = shape;
-  stream.type = h5::type_name(file_type);
+  stream.type = type_name(file_type);
   std::vector<hsize_t> sizes;
   for (const std::uint64_t n : shape) {
     stream.total *= n;
@@ -167,13 +175,21 @@ void H5Writer::append_raw(const std::string& path, const void* data, std::size_t
   state_->require(selected && H5Dwrite(stream.dataset.get(), stream.memory_type, memory_space.get(),
                                        file_space.get(), H5P_DEFAULT, data) >= 0,
                   name);
-  stream.sha.update(data, count * size);
+  if (!stream.by_checksums) {
+    stream.sha.update(data, count * size);
+  }
   stream.done += count;
   state_->since_write_out += count * size;
   if (state_->since_write_out >= kWriteOut) {
     state_->atomic.start_writing_out();
     state_->since_write_out = 0;
   }
+}
+
+void H5Writer::sum_blocks(const std::string& path, std::int64_t checksum_column) {
+  const std::string name = h5::absolute_path(path);
+  state_->streams.at(name).by_checksums = true;
+  attribute(name, h5::kChecksumColumn, checksum_column);
 }
 
 void H5Writer::write_raw(const std::string& path, const void* data, std::size_t count, hid_t memory_type,
@@ -235,7 +251,8 @@ bool H5Writer::commit() {
     if (stream.done != stream.total) {
       throw std::logic_error("dataset " + name + " was promised more elements than it got");
     }
-    state_->digest.dataset(name, stream.type, stream.shape, stream.sha.hex());
+    state_->digest.dataset(name, stream.type, stream.shape,
+                           stream.by_checksums ? h5::kByChecksums : stream.sha.hex());
   }
   for (auto& [name, stream] : state_->streams) {
     // What the library has held back is written now; closing a dataset does not tell what could not be.

@@ -2,11 +2,13 @@
 #include "common/artefact/json.h"
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "common/artefact/artefact_check.h"
 #include "common/artefact/atomic_file.h"
 #include "common/artefact/h5.h"
+#include "common/artefact/limits.h"
 #include "common/artefact/sha256.h"
 #include "common/errors/codes.h"
 
@@ -32,6 +34,90 @@ std::string payload_of(Json value) {
 }
 
 }  // namespace
+
+std::string short_message(const Json::exception& error) {
+  const std::string message = error.what();
+  const std::size_t end = message.find("] ");
+  return end == std::string::npos ? message : message.substr(end + 2);
+}
+
+void check_json_depth(const std::string& text) {
+  int depth = 0;
+  bool in_text = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_text) {
+      i += c == '\\' ? 1 : 0;
+      in_text = c != '"';
+    } else if (c == '"') {
+      in_text = true;
+    } else if (c == '[' || c == '{') {
+      if (++depth > kDeepestJson) {
+        throw BadJson("nested deeper than " + std::to_string(kDeepestJson) + " levels at byte " +
+                      std::to_string(i));
+      }
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
+}
+
+Json parse_json(const std::string& text) {
+  check_json_depth(text);
+  try {
+    return Json::parse(text);
+  } catch (const Json::exception& error) {
+    throw BadJson(short_message(error));
+  }
+}
+
+Json try_parse_json(const std::string& text) {
+  try {
+    return parse_json(text);
+  } catch (const BadJson&) {
+    return {};
+  }
+}
+
+bool is_utf8(const std::string& text) {
+  try {
+    return !Json(text).dump().empty();
+  } catch (const Json::type_error&) {
+    return false;
+  }
+}
+
+std::string excerpt(const Json& value) {
+  constexpr std::size_t kLongest = 60;
+  const std::string text = value.dump(-1, ' ', true);  // ASCII: may be cut anywhere
+  return text.size() <= kLongest ? text : text.substr(0, kLongest) + " …";
+}
+
+double number_in(const Json& value, double low, double high) {
+  const double number = value.is_number() ? value.get<double>() : std::nan("");
+  if (!(number >= low && number <= high)) {
+    throw BadJson("is " + excerpt(value) + ", must be a number from " + Json(low).dump() + " to " +
+                  Json(high).dump());
+  }
+  return number;
+}
+
+std::int64_t whole_number_in(const Json& value, std::int64_t low, std::int64_t high) {
+  const bool fits =
+      value.is_number_integer() &&
+      (!value.is_number_unsigned() ||
+       value.get<std::uint64_t>() <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()));
+  const std::int64_t number = fits ? value.get<std::int64_t>() : 0;
+  if (!fits || number < low || number > high) {
+    throw BadJson("is " + excerpt(value) + ", must be a whole number from " + std::to_string(low) + " to " +
+                  std::to_string(high));
+  }
+  return number;
+}
+
+double local_metres(const Json& value) {
+  return number_in(value, -limits::kFarthest_m, limits::kFarthest_m);
+}
 
 std::string canonical_json(const Json& value) {
   require_finite(value, "");
@@ -68,7 +154,7 @@ Json to_json(const Frame& frame) {
 Provenance provenance_from_json(const Json& value) {
   Provenance provenance;
   provenance.stage = value.at("stage").get<std::string>();
-  provenance.stage_revision = value.at("stage_revision").get<int>();
+  provenance.stage_revision = static_cast<int>(whole_number_in(value.at("stage_revision"), 0, 1'000'000'000));
   provenance.params_json = value.at("params_json").get<std::string>();
   provenance.params_sha256 = value.at("params_sha256").get<std::string>();
   for (const Json& input : value.at("inputs")) {
@@ -83,7 +169,8 @@ Provenance provenance_from_json(const Json& value) {
 Frame frame_from_json(const Json& value) {
   Frame frame;
   for (std::size_t i = 0; i < 3; ++i) {
-    frame.origin[i] = value.at("origin").at(i).get<double>();
+    frame.origin[i] =
+        number_in(value.at("origin").at(i), -limits::kFarthestOrigin_m, limits::kFarthestOrigin_m);
   }
   frame.unit = value.at("unit").get<std::string>();
   frame.up = value.at("up").get<std::string>();
@@ -91,7 +178,7 @@ Frame frame_from_json(const Json& value) {
 }
 
 std::string json_payload_sha256(const std::string& text) {
-  const Json value = Json::parse(text, nullptr, false);
+  const Json value = try_parse_json(text);
   return value.is_object() ? payload_of(value) : std::string();
 }
 
@@ -122,16 +209,17 @@ Json read_json_artefact(const std::filesystem::path& path, ArtefactType expected
   const std::string text = read_text_file(path);
   Json value;
   try {
-    value = Json::parse(text);
-  } catch (const Json::parse_error& error) {
-    throw StageError(errors::kArtefactDamaged, path.string(), std::string("not JSON: ") + error.what(),
-                     "make it again with the stage that writes it");
+    value = parse_json(text);
+  } catch (const BadJson& error) {
+    throw_damaged(path, "", std::string("not JSON: ") + error.what());
   }
-  const auto word = [&value](const char* key) {
-    return value.is_object() && value.contains(key) && value[key].is_string() ? value[key].get<std::string>()
+  const auto word = [](const Json& owner, const char* key) {
+    return owner.is_object() && owner.contains(key) && owner[key].is_string() ? owner[key].get<std::string>()
                                                                               : std::string();
   };
-  check_type_and_version(path, word("artefact"), word("schema_version"), expected);
+  check_type_and_version(path, word(value, "artefact"), word(value, "schema_version"), expected);
+  const Json provenance = value.value("provenance", Json());
+  require_payload(path, word(provenance, "payload_sha256"), payload_of(value));
   return value;
 }
 

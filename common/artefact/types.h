@@ -12,7 +12,7 @@ struct ArtefactType {
 };
 
 namespace artefacts {
-inline constexpr ArtefactType kCloud{"cloud", 1, 0};
+inline constexpr ArtefactType kCloud{"cloud", 1, 1};
 inline constexpr ArtefactType kSlices{"slices", 1, 1};
 inline constexpr ArtefactType kHough{"hough", 1, 0};
 inline constexpr ArtefactType kWallLines{"wall_lines", 1, 0};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace roomcut {
@@ -17,5 +18,19 @@ struct VerifyOptions {
 /// oriented, 2-manifold, no self-intersection, the volume that the summary states). Prints "ok" lines to
 /// stdout. Throws StageError with all findings.
 void verify(const std::vector<std::filesystem::path>& stamps, const VerifyOptions& options);
+
+struct PlanOptions {
+  std::filesystem::path scan;  ///< where the scan lies now
+  std::string again;           ///< a stage that is to run in any case; may be empty
+};
+
+/// Reads the pipeline (parse_pipeline()) from standard input and prints two lines of names for Make: the
+/// stages up to and including `goals` that must run, and those that run only if one of the former comes out
+/// different. The work folder is the current one. Outputs that were changed by hand are moved aside first
+/// (set_aside()); notes go to standard error. Throws StageError(kCannotWrite).
+void print_plan(const PlanOptions& options, const std::vector<std::string>& goals);
+
+/// Reads the pipeline from standard input and prints a line per stage; changes nothing.
+void print_status(const PlanOptions& options);
 
 }  // namespace roomcut

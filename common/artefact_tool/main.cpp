@@ -3,7 +3,6 @@
 
 #include "common/artefact/h5.h"
 #include "common/artefact_tool/commands.h"
-#include "common/artefact_tool/status.h"
 #include "common/errors/codes.h"
 
 namespace {
@@ -12,8 +11,9 @@ using namespace roomcut;
 using Paths = std::vector<std::filesystem::path>;
 
 constexpr const char* kUsage =
-    "artefact show|digest|bytes FILE …   artefact input FILE NAME\n"
-    "artefact status PIPELINE STALE\n"
+    "artefact show|digest|bytes FILE …\n"
+    "artefact plan [--scan FILE] [--again STAGE] GOAL … < PIPELINE   artefact status [--scan FILE] < "
+    "PIPELINE\n"
     "artefact verify [--schemas FOLDER] [--scan FILE] STAMP …\n";
 
 void show(const std::filesystem::path& path) {
@@ -32,16 +32,6 @@ void show(const std::filesystem::path& path) {
   }
 }
 
-bool print_input(const std::filesystem::path& path, const std::string& name) {
-  for (const InputRecord& input : read_provenance(path).inputs) {
-    if (input.name == name) {
-      std::cout << input.payload_sha256 << "\n";
-      return true;
-    }
-  }
-  return false;
-}
-
 /// Takes "--schemas FOLDER" and "--scan FILE" off the front.
 VerifyOptions take_options(Paths& paths) {
   VerifyOptions options;
@@ -52,14 +42,31 @@ VerifyOptions take_options(Paths& paths) {
   return options;
 }
 
+/// "--scan FILE" and "--again STAGE" in front, then goals.
+int plan_or_status(const std::string& command, Paths paths) {
+  PlanOptions options;
+  while (paths.size() > 1 && (paths[0] == "--scan" || paths[0] == "--again")) {
+    if (paths[0] == "--scan") {
+      options.scan = paths[1];
+    } else {
+      options.again = paths[1].string();
+    }
+    paths.erase(paths.begin(), paths.begin() + 2);
+  }
+  if (command == "status") {
+    print_status(options);
+  } else {
+    print_plan(options, {paths.begin(), paths.end()});
+  }
+  return 0;
+}
+
 int run(const std::string& command, Paths paths) {
   if (command == "verify") {
     const VerifyOptions options = take_options(paths);
     verify(paths, options);
-  } else if (command == "status" && paths.size() == 2) {
-    print_status(parse_pipeline(read_text_file(paths[0])), parse_stale(read_text_file(paths[1])));
-  } else if (command == "input" && paths.size() == 2) {
-    return print_input(paths[0], paths[1].string()) ? 0 : static_cast<int>(ExitCode::kInput);
+  } else if (command == "plan" || command == "status") {
+    return plan_or_status(command, std::move(paths));
   } else if (command == "show" || command == "digest" || command == "bytes") {
     for (const std::filesystem::path& path : paths) {
       if (command == "show") {

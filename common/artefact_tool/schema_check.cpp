@@ -6,20 +6,20 @@
 #include <valijson/schema_parser.hpp>
 #include <valijson/validator.hpp>
 
+#include "common/artefact/artefact_check.h"
 #include "common/artefact/atomic_file.h"
 #include "common/artefact/json.h"
-#include "common/errors/codes.h"
 
 namespace roomcut {
 
 namespace {
 
 Json parsed(const std::filesystem::path& path) {
-  Json value = Json::parse(read_text_file(path), nullptr, false);
-  if (value.is_discarded()) {
-    throw StageError(errors::kArtefactDamaged, path.string(), "is not JSON", "delete it and run make");
+  try {
+    return parse_json(read_text_file(path));
+  } catch (const BadJson& error) {
+    throw_damaged(path, "", std::string("is not JSON: ") + error.what());
   }
-  return value;
 }
 
 /// "<root>[features][3][properties]" as "features.3.properties".

@@ -10,6 +10,7 @@
 #include "common/artefact/h5.h"
 #include "common/artefact/json.h"
 #include "common/errors/error.h"
+#include "common/rerun/work_digests.h"
 
 namespace roomcut {
 
@@ -52,7 +53,7 @@ std::vector<std::string> parameter_changes(const PipelineStage& stage, const std
                    std::to_string(after) + ")");
   }
   if (text.empty()) {
-    text.emplace_back("its parameters were changed and changed back");
+    text.emplace_back("its parameters are others than it ran with");
   }
   return text;
 }
@@ -85,37 +86,45 @@ std::vector<std::string> reasons(const PipelineStage& stage, const StaleStage& s
   for (const std::string& file : stale.missing) {
     text.push_back("its output " + file + " is missing");
   }
+  for (const std::string& file : stale.damaged) {
+    text.push_back("its output " + file + " was changed or damaged");
+  }
   for (const std::string& file : stale.changed) {
     if (file.starts_with("params/")) {
       for (std::string& change : parameter_changes(stage, file)) {
         text.push_back(std::move(change));
       }
-    } else if (file == "inputs/scan.id") {
+    } else if (file == kScanName) {
       text.emplace_back("the scan changed");
     } else if (file == "inputs/scan.options") {
       text.emplace_back("the scan is to be read with another up axis or unit");
     } else if (file == "inputs/stations.txt") {
       text.emplace_back("the scanner positions changed");
-    } else if (file == "inputs/edit.id") {
+    } else if (file == kEdit) {
       text.push_back(edit_change(stage));
     } else {
-      text.push_back("its input " + file + " was made anew");
+      text.push_back("its input " + file + " is another than it read");
     }
   }
   return text;
 }
 
 std::string stale_text(const PipelineStage& stage, const StaleStage& stale) {
-  if (!is_there("stamps/" + stage.name)) {
-    return is_there("stamps/" + stage.name + ".before") ? "stale: it did not finish last time" : "never run";
+  switch (stale.stamp) {
+    case StampState::kNone:
+      return "never run";
+    case StampState::kUnfinished:
+      return "stale: it did not finish last time";
+    case StampState::kUnknown:
+      return "stale: its stamp does not say what it was made from (of an older roomcut, or cut short)";
+    default:
+      return "stale: " + joined(reasons(stage, stale), ", ");
   }
-  return "stale: " + joined(reasons(stage, stale), ", ");
 }
 
 /// ", edited: 1 moved, 1 locked" for the stage that took in a hand edit; "" for all others.
 std::string edit_text(const PipelineStage& stage) {
-  const bool takes =
-      std::find(stage.inputs.begin(), stage.inputs.end(), "inputs/edit.id") != stage.inputs.end();
+  const bool takes = std::find(stage.inputs.begin(), stage.inputs.end(), kEdit) != stage.inputs.end();
   if (!takes || !is_there(kEdit)) {
     return "";
   }

@@ -6,33 +6,20 @@
 
 #include "common/artefact/h5.h"
 #include "common/artefact/json.h"
-#include "common/artefact/stamp.h"
+#include "common/artefact_digest/artefact_digest.h"
 #include "common/artefact_tool/commands.h"
 #include "common/artefact_tool/schema_check.h"
 #include "common/errors/codes.h"
 #include "common/mesh/mesh_check.h"
 #include "common/mesh/mesh_io.h"
-#include "common/openings/openings_io.h"
-#include "common/wall_lines/wall_lines_io.h"
+#include "common/rerun/stamp.h"
+#include "common/rerun/work_digests.h"
 
 namespace roomcut {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string actual_digest(const fs::path& path, const InputRecord& stated) {
-  if (stated.artefact.empty()) {
-    return stated.payload_sha256;  // no artefact: this is already the digest of the bytes
-  }
-  if (stated.artefact == artefacts::kWallLines.name) {
-    return wall_lines_payload_sha256(read_wall_lines(path).content);
-  }
-  if (stated.artefact == artefacts::kOpenings.name) {
-    return read_openings(path).payload_sha256;
-  }
-  return recompute_payload_sha256(path);
-}
 
 /// Whether the input that lies there now is the one that `record` names; files outside the work folder are
 /// not looked at.
@@ -47,12 +34,30 @@ bool is_still(const InputRecord& record, const fs::path& folder) {
   return now == record.payload_sha256;
 }
 
+/// What the stage's parameters are now, as pipeline.sh asked them last, against those that made the artefact.
+void check_parameters(const fs::path& path, const Provenance& made, std::vector<Problem>& problems) {
+  const fs::path file = "params/" + made.stage + ".json";
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) {
+    return;
+  }
+  const Json now = Json::parse(read_text_file(file), nullptr, false);
+  const Json then = Json::parse(made.params_json, nullptr, false);
+  if (!now.is_object() || !now.contains("params") || now["params"] != then ||
+      now.value("revision", 0) != made.stage_revision) {
+    problems.push_back({errors::kArtefactMismatch, path.string(),
+                        "was made with other parameters than " + file.string() + " holds now",
+                        "make run brings it up to date; make status says what changed"});
+  }
+}
+
 void check_provenance(const fs::path& path, const VerifyOptions& options, std::vector<Problem>& problems) {
   const Provenance provenance = read_provenance(path);
   if (sha256_hex(provenance.params_json) != provenance.params_sha256) {
     problems.push_back({errors::kArtefactDamaged, path.string(),
                         "its parameters do not have the digest that it states", "delete it and run make"});
   }
+  check_parameters(path, provenance, problems);
   for (const InputRecord& input : provenance.inputs) {
     if (!is_still(input, path.parent_path())) {
       problems.push_back({errors::kArtefactMismatch, path.string(),
@@ -110,28 +115,25 @@ void check_model(const fs::path& path, std::vector<Problem>& problems) {
 }
 
 void check(const StampEntry& entry, const VerifyOptions& options, std::vector<Problem>& problems) {
-  const std::string name = entry.path.string();
+  const std::string name = entry.name;
   std::error_code error;
-  if (!fs::is_regular_file(entry.path, error)) {
+  if (!fs::is_regular_file(entry.name, error)) {
     problems.push_back({errors::kArtefactMissing, name, "is missing", "make run makes it again"});
     return;
   }
   const std::size_t before = problems.size();
-  const InputRecord stated = inspect_artefact(entry.path);
-  if (stated.payload_sha256 != entry.sha256) {
+  const InputRecord stated = inspect_artefact(entry.name);
+  if (stated.payload_sha256 != entry.sha256 || content_digest(entry.name, payload_digest) != entry.content) {
     problems.push_back(
         {errors::kArtefactMismatch, name, "is not the file that its stage wrote", "delete it and run make"});
   }
-  check_schema(entry.path, stated.artefact, options, problems);
-  if (actual_digest(entry.path, stated) != stated.payload_sha256) {
-    problems.push_back({errors::kArtefactDamaged, name, "its content does not have the digest that it states",
-                        "delete it and run make"});
-  }
+  check_schema(entry.name, stated.artefact, options, problems);
+  verified_artefact(entry.name);  // throws for a content that has not the digest that it states
   if (!stated.artefact.empty()) {
-    check_provenance(entry.path, options, problems);
+    check_provenance(entry.name, options, problems);
   }
-  if (entry.path.filename() == "model.ply") {
-    check_model(entry.path, problems);
+  if (fs::path(entry.name).filename() == "model.ply") {
+    check_model(entry.name, problems);
   }
   if (problems.size() == before) {
     std::cout << "ok  " << name << "\n";
@@ -143,12 +145,14 @@ void check(const StampEntry& entry, const VerifyOptions& options, std::vector<Pr
 void verify(const std::vector<fs::path>& stamps, const VerifyOptions& options) {
   std::vector<Problem> problems;
   for (const fs::path& stamp : stamps) {
-    const std::vector<StampEntry> entries = read_stamp(stamp);
-    if (entries.empty()) {
-      problems.push_back({errors::kArtefactDamaged, stamp.string(), "the stamp names no output",
-                          "delete it and run make: it is left like this when the machine loses power"});
+    const StampFile file = read_stamp(stamp);
+    if (file.state != StampState::kWhole) {
+      problems.push_back(
+          {errors::kArtefactDamaged, stamp.string(), "does not say what the stage read and wrote",
+           "make run makes it again: it is like this when an older roomcut wrote it, or when the "
+           "machine lost power"});
     }
-    for (const StampEntry& entry : entries) {
+    for (const StampEntry& entry : file.stamp.outputs) {
       try {
         check(entry, options, problems);
       } catch (const StageError& error) {

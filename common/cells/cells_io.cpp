@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/cells/cells_io.h"
 
+#include <numbers>
 #include <string>
 
-#include "common/artefact/h5.h"
+#include "common/artefact/h5_values.h"
+#include "common/artefact/json.h"
+#include "common/artefact/limits.h"
 
 // The page of this artefact is schemas/cells.md.
 
@@ -65,22 +68,26 @@ void check_offsets(const H5Reader& file, const char* path, const std::vector<std
   }
 }
 
+std::vector<double> read_metres(const H5Reader& file, const char* path, const h5::Shape& shape) {
+  return read_in_range<double>(file, path, shape, -limits::kFarthest_m, limits::kFarthest_m);
+}
+
 std::vector<CellComplex::Line> read_lines(const H5Reader& file) {
-  const auto theta = file.read<double>("lines/theta", {0});
-  const auto d = file.read<double>("lines/d", {theta.size()});
-  const auto support = file.read<double>("lines/support", {theta.size(), 2});
+  const auto theta = read_in_range<double>(file, "lines/theta", {0}, 0, std::numbers::pi);
+  const auto d = read_metres(file, "lines/d", {theta.size()});
+  const auto support = read_metres(file, "lines/support", {theta.size(), 2});
   const auto id_offset = file.read<std::int64_t>("lines/id_offset", {theta.size() + 1});
   const auto id_bytes = file.read<std::uint8_t>("lines/id_bytes", {0});
   const auto layer_offset = file.read<std::int64_t>("lines/layers_offset", {theta.size() + 1});
   const auto layers = file.read<std::int32_t>("lines/layers", {0});
   check_offsets(file, "lines/id_offset", id_offset, id_bytes.size());
   check_offsets(file, "lines/layers_offset", layer_offset, layers.size());
-  if (d.size() != theta.size() || support.size() != 2 * theta.size()) {
-    file.damaged("lines", "the datasets have different lengths");
-  }
   std::vector<CellComplex::Line> lines(theta.size());
   for (std::size_t i = 0; i < lines.size(); ++i) {
     lines[i].wall_id.assign(id_bytes.begin() + id_offset[i], id_bytes.begin() + id_offset[i + 1]);
+    if (!is_utf8(lines[i].wall_id)) {
+      file.damaged("lines/id_bytes", "a wall_id is no UTF-8 text");
+    }
     lines[i].line = {theta[i], d[i]};
     lines[i].t0 = support[2 * i];
     lines[i].t1 = support[2 * i + 1];
@@ -109,9 +116,6 @@ std::vector<CellComplex::Edge> read_edges(const H5Reader& file) {
   const auto line = file.read<std::int32_t>("edges/line", {0});
   const auto vertices = file.read<std::int32_t>("edges/vertices", {line.size(), 2});
   const auto faces = file.read<std::int32_t>("edges/faces", {line.size(), 2});
-  if (vertices.size() != 2 * line.size() || faces.size() != 2 * line.size()) {
-    file.damaged("edges", "the datasets have different lengths");
-  }
   std::vector<CellComplex::Edge> edges(line.size());
   for (std::size_t e = 0; e < edges.size(); ++e) {
     edges[e] = {vertices[2 * e], vertices[2 * e + 1], faces[2 * e], faces[2 * e + 1], line[e]};
@@ -126,8 +130,8 @@ CellsFile read_cells(const std::filesystem::path& path) {
   CellsFile cells;
   CellComplex& complex = cells.complex;
   complex.frame = file.frame();
-  complex.levels = file.read<double>("levels/z", {0});
-  const auto xy = file.read<double>("vertices/xy", {0, 2});
+  complex.levels = read_metres(file, "levels/z", {0});
+  const auto xy = read_metres(file, "vertices/xy", {0, 2});
   complex.vertices.resize(xy.size() / 2);
   for (std::size_t v = 0; v < complex.vertices.size(); ++v) {
     complex.vertices[v] = {xy[2 * v], xy[2 * v + 1]};

@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "common/artefact/limits.h"
 #include "common/errors/codes.h"
 
 // The pages of these artefacts are schemas/weights.md and schemas/data_terms.md.
@@ -37,9 +38,7 @@ struct Sizes {
 };
 
 std::vector<float> read_share(const H5Reader& file, const char* path, std::size_t count, double low = 0) {
-  auto values = file.read<float>(path, {count});
-  check_range(file, path, values, low, 1);
-  return values;
+  return read_in_range<float>(file, path, {count}, low, 1);
 }
 
 void write_share(H5Writer& file, const char* path, const std::vector<float>& values, std::size_t count,
@@ -64,7 +63,8 @@ FaceWeights read_weights(const std::filesystem::path& path, const CellsFile& cel
   weights.level_points = file.read<std::uint32_t>("level/points", {sizes.levels});
   weights.cell_points = file.read<std::uint32_t>("cell/points", {sizes.cells});
   weights.cell_slope = read_share(file, "cell/slope", sizes.cells);
-  const auto stations = file.read<double>("stations/xyz", {0, 3});
+  const auto stations = read_in_range<double>(file, "stations/xyz", {0, 3}, -limits::kFarthestOrigin_m,
+                                              limits::kFarthestOrigin_m);
   for (std::size_t i = 0; i < stations.size(); i += 3) {
     weights.stations.emplace_back(stations[i], stations[i + 1], stations[i + 2]);
   }

@@ -69,6 +69,7 @@ Json run_log(const StageRun::State& state, const std::vector<Problem>& problems,
               {"params", Json::parse(state.params_json, nullptr, false)},
               {"chosen", Json::array()},
               {"counts", Json::array()},
+              {"notes", Json::array()},
               {"warnings", Json::array()},
               {"problems", Json::array()},
               {"inputs", Json::object()},
@@ -80,6 +81,9 @@ Json run_log(const StageRun::State& state, const std::vector<Problem>& problems,
   for (const Count& count : state.counts) {
     log["counts"].push_back(
         {{"what", count.what}, {"value", finite_or_text(count.value)}, {"unit", count.unit}});
+  }
+  for (const std::string& note : state.notes) {
+    log["notes"].push_back(utf8_or_escaped(note));
   }
   for (const std::string& warning : state.warnings) {
     log["warnings"].push_back(utf8_or_escaped(warning));

@@ -9,11 +9,13 @@
 #include <iostream>
 #include <new>
 #include <optional>
+#include <system_error>
 
-#include "common/artefact/stamp.h"
 #include "common/artefact/unsynced_file.h"
+#include "common/cli/stage_stamp.h"
 #include "common/cli/stage_state.h"
 #include "common/errors/codes.h"
+#include "common/rerun/work_digests.h"
 
 namespace roomcut {
 
@@ -28,13 +30,30 @@ struct CommandLine {
   int threads = 0;
   std::string log;
   std::string stamp;
-  std::string missing;
+  std::string reads;
+  std::string announce;
+  bool if_changed = false;
   bool quiet = false;
   bool verbose = false;
   bool dump = false;
   bool dump_yaml = false;
   std::map<std::string, std::string> files;
 };
+
+/// For Make, which runs every stage in the work folder.
+void declare_stamp_options(CLI::App& app, CommandLine& line) {
+  app.add_option("--stamp", line.stamp, "Written when the stage has run: what it read and wrote, by digest")
+      ->type_name("FILE")
+      ->group("Make");
+  app.add_option("--reads", line.reads, "What the stamp says of the inputs: names, separated by spaces")
+      ->type_name("FILES")
+      ->group("Make");
+  app.add_flag("--if-changed", line.if_changed, "Do nothing when the stamp's inputs are still the same")
+      ->group("Make");
+  app.add_option("--announce", line.announce, "Printed to standard output when the stage begins")
+      ->type_name("TEXT")
+      ->group("Make");
+}
 
 void declare_options(CLI::App& app, const StageInfo& info, CommandLine& line, StageRun::State& state) {
   app.set_version_flag("--version",
@@ -56,12 +75,7 @@ void declare_options(CLI::App& app, const StageInfo& info, CommandLine& line, St
   app.add_option("--log", line.log,
                  "Log of this run; default: <work>/logs/" + info.name + ".json when --work is given")
       ->type_name("FILE");
-  app.add_option("--stamp", line.stamp, "For Make: written when the stage has run, names the outputs")
-      ->type_name("FILE")
-      ->group("Make");
-  app.add_option("--missing", line.missing, "For Make: outputs that were not there, separated by spaces")
-      ->type_name("FILES")
-      ->group("Make");
+  declare_stamp_options(app, line);
   app.add_flag("-q,--quiet", line.quiet, "Print nothing but errors");
   app.add_flag("-v,--verbose", line.verbose, "Print settings and files as well");
   app.add_flag("--dump-params", line.dump, "Print the resolved parameters and stop");
@@ -113,6 +127,7 @@ std::vector<std::filesystem::path> outputs_of(const StageInfo& info, const Stage
       outputs.push_back(path);
     }
   }
+  outputs.insert(outputs.end(), state.also_written.begin(), state.also_written.end());
   return outputs;
 }
 
@@ -166,11 +181,41 @@ void print_summary(const StageRun::State& state) {
   }
 }
 
+/// The body with what Make wants to know before and after it; false when there was nothing to do.
+bool run_body(const StageInfo& info, const CommandLine& line, StageRun::State& state,
+              const std::function<void(StageRun&)>& body) {
+  std::optional<StageStamp> stamp;
+  if (!line.stamp.empty()) {
+    stamp.emplace(line.stamp, line.reads);
+    if (line.if_changed && stamp->is_current()) {
+      return false;
+    }
+    const auto scan = state.files.find(kScanName);
+    stamp->begin(scan == state.files.end() ? std::filesystem::path() : scan->second);
+  }
+  if (!line.announce.empty()) {
+    std::cout << line.announce << std::endl;  // at once: somebody waits for it
+  }
+  StageRun run(state);
+  body(run);
+  if (stamp) {
+    stamp->settle(run, outputs_of(info, state));
+  }
+  return true;
+}
+
 int report(const std::vector<Problem>& problems) {
   for (const Problem& problem : problems) {
     std::cerr << to_string(problem);
   }
   return static_cast<int>(problems.front().code.exit_code);
+}
+
+/// std::filesystem says it by a code.
+bool is_want_of_memory(const std::exception& error) {
+  const auto* system = dynamic_cast<const std::system_error*>(&error);
+  return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
+         (system != nullptr && system->code() == std::errc::not_enough_memory);
 }
 
 /// Runs the body; every way in which it can end becomes an exit code.
@@ -181,10 +226,11 @@ int guarded(const std::function<void()>& body, std::vector<Problem>& problems) {
   } catch (const StageError& error) {
     problems = error.problems();
     return report(problems);
-  } catch (const std::bad_alloc&) {
-    problems.push_back({errors::kTooComplex, "", std::string(kNoMemory), std::string(kNoMemoryHint)});
-    return report(problems);
   } catch (const std::exception& error) {
+    if (is_want_of_memory(error)) {
+      problems.push_back({errors::kTooComplex, "", std::string(kNoMemory), std::string(kNoMemoryHint)});
+      return report(problems);
+    }
     static constexpr ErrorCode kBug{"B01", ExitCode::kBug};
     problems.push_back({kBug, "", std::string("unexpected: ") + error.what(),
                         "this is a bug in roomcut: please report it with the command line and the log"});
@@ -229,6 +275,7 @@ int run_stage(int argc, char** argv, const StageInfo& info, ParameterTable table
   const bool work_given = app.get_option("--work")->count() > 0;
 
   std::vector<Problem> problems;
+  bool ran = true;  // also a stage that failed
   const int exit_code = guarded(
       [&] {
         resolve_parameters(info, line, table);
@@ -252,18 +299,14 @@ int run_stage(int argc, char** argv, const StageInfo& info, ParameterTable table
           limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(line.threads));
         }
         echo_settings(info, state, table);
-        StageRun run(state);
-        if (!line.stamp.empty()) {
-          withdraw_stamp(line.stamp);
-        }
-        body(run);
-        if (!line.stamp.empty()) {
-          settle_stamp(line.stamp, line.missing, outputs_of(info, state));
+        ran = run_body(info, line, state, body);
+        if (!ran) {
+          return;
         }
         print_summary(state);
       },
       problems);
-  if (!line.dump && !line.dump_yaml) {
+  if (!line.dump && !line.dump_yaml && ran) {
     write_log(line, work_given, info, state, problems, exit_code);
   }
   return exit_code;

@@ -73,12 +73,18 @@ class StageRun {
   /// Replaces the digest of an input that is no artefact and that the stage hashes while it reads (the scan).
   void set_input_digest(const std::string& name, const std::string& sha256);
 
+  /// A file that the stage has written beside its declared outputs: Make notices when it is missing or
+  /// changed.
+  void wrote(const std::filesystem::path& path);
+
   Progress progress(const std::string& what, std::uint64_t total) const;
   /// A value that `auto` resolved to: printed as "slice: bandwidth_m = 0.012 (2 x noise)" and kept in the
   /// log.
   void chose(const std::string& parameter, double value, const std::string& why);
   /// A count or figure of this run: printed at the end and kept in the log.
   void count(const std::string& what, double value, const std::string& unit = "");
+  /// How something was understood: printed at once, kept in the log.
+  void note(const std::string& text);
   /// A warning: printed at once, repeated at the end, kept in the log.
   void warn(const std::string& text);
 

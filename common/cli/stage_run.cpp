@@ -113,6 +113,10 @@ void StageRun::set_input_digest(const std::string& name, const std::string& sha2
   state_.provenance.reset();
 }
 
+void StageRun::wrote(const fs::path& path) {
+  state_.also_written.push_back(path);
+}
+
 Progress StageRun::progress(const std::string& what, std::uint64_t total) const {
   return {state_.info->name + ": " + what, total, state_.quiet};
 }
@@ -126,6 +130,12 @@ void StageRun::chose(const std::string& parameter, double value, const std::stri
 void StageRun::count(const std::string& what, double value, const std::string& unit) {
   const std::scoped_lock lock(state_.mutex);
   state_.counts.push_back({what, value, unit});
+}
+
+void StageRun::note(const std::string& text) {
+  const std::scoped_lock lock(state_.mutex);
+  state_.notes.push_back(text);
+  spdlog::info("{}: {}", state_.info->name, text);
 }
 
 void StageRun::warn(const std::string& text) {

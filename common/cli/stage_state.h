@@ -37,11 +37,13 @@ struct StageRun::State {
   bool verbose = false;
 
   std::map<std::string, std::string> given_digests;  ///< by set_input_digest()
+  std::vector<std::filesystem::path> also_written;   ///< by wrote()
   std::optional<Provenance> provenance;
 
   std::mutex mutex;  ///< guards what follows
   std::vector<Choice> choices;
   std::vector<Count> counts;
+  std::vector<std::string> notes;
   std::vector<std::string> warnings;
 
   std::chrono::system_clock::time_point started = std::chrono::system_clock::now();

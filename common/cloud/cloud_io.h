@@ -11,10 +11,13 @@
 
 namespace roomcut {
 
-/// Reads a cloud.h5 tile by tile, or tiles by parts. Memory: one tile, or part, per thread.
+/// Reads a cloud.h5 tile by tile, or tiles by parts. Memory: one tile, or part, per thread. Points are
+/// checked as they are read: against the checksum of their block, finite, and in the scan's box;
+/// kArtefactDamaged.
 class CloudReader {
  public:
-  /// Checks type, version and sizes, reads the header only. Errors: kArtefact… (common/artefact/h5.h).
+  /// Checks type, version and sizes, reads the header only (of a cloud of version 1.0, which has no
+  /// checksums, everything). Errors: kArtefact… (common/artefact/h5.h).
   explicit CloudReader(const std::filesystem::path& path);
   ~CloudReader();
 
@@ -25,7 +28,8 @@ class CloudReader {
   /// Reads tile `index` into `tile` (its vectors are resized, capacity is reused). Thread-safe.
   void read_tile(std::size_t index, CloudTile& tile) const;
 
-  /// Points [first_in_tile, first_in_tile + count) of a tile. Likewise.
+  /// Points [first_in_tile, first_in_tile + count) of a tile. Likewise. Whole blocks are read: cheapest when
+  /// the part begins and ends with blocks of 65,536.
   void read_part(std::size_t index, std::uint64_t first_in_tile, std::uint64_t count, CloudTile& tile) const;
 
   /// Calls visit(index, points) for each tile, in parallel on TBB, in no particular order, and several times
@@ -37,6 +41,7 @@ class CloudReader {
 
  private:
   struct State;
+  void read_blocks(std::uint64_t first, std::uint64_t count, CloudTile& tile) const;
   std::unique_ptr<State> state_;
 };
 

@@ -1,101 +1,80 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <fcntl.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
+#include <stdexcept>
 
-#include "common/artefact/h5.h"
+#include "common/artefact/artefact_check.h"
+#include "common/cloud/cloud_header_reader.h"
 #include "common/cloud/cloud_io.h"
 #include "common/cloud/cloud_layout.h"
-#include "common/errors/codes.h"
 
 namespace roomcut {
 
 namespace layout = cloud_layout;
 
 struct CloudReader::State {
-  explicit State(const std::filesystem::path& path) : file(path, artefacts::kCloud) {}
-  ~State() {
-    if (descriptor >= 0) {
-      ::close(descriptor);
+  explicit State(const std::filesystem::path& path)
+      : file(path, artefacts::kCloud),
+        header(read_cloud_header(file)),
+        blocks(read_cloud_blocks(file, header)) {
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      columns[i] = &file.content().dataset(layout::kColumns[i]);
+    }
+    for (const char* path_of : {layout::kX, layout::kY, layout::kZ, layout::kArea}) {
+      file.require_type<float>(path_of);
+    }
+    for (const char* path_of : {layout::kSurface, layout::kAzimuth}) {
+      file.require_type<std::uint8_t>(path_of);
     }
   }
   H5Reader file;
   CloudHeader header;
-  int descriptor = -1;
-  std::uint64_t x = 0, y = 0, z = 0, surface = 0, azimuth = 0,
-                area = 0;  ///< where the datasets begin in the file
+  std::optional<h5::BlockTable> blocks;  ///< none in files of version 1.0: verified as a whole when opened
+  std::array<const h5::StoredDataset*, layout::kColumns.size()> columns{};
 };
 
 namespace {
 
-constexpr std::uint64_t kPart = std::uint64_t{1} << 16;  ///< points: about a megabyte
-
-Vec3 read_corner(const H5Reader& file, const char* path) {
-  const std::vector<double> corner = file.read<double>(path, {3});
-  return {corner[0], corner[1], corner[2]};
+/// The least and the greatest value, NaN when one is NaN.
+template <class T>
+std::pair<T, T> range_of(const std::vector<T>& values) {
+  const Eigen::Map<const Eigen::Array<T, Eigen::Dynamic, 1>> array(values.data(),
+                                                                   static_cast<Eigen::Index>(values.size()));
+  return {array.template minCoeff<Eigen::PropagateNaN>(), array.template maxCoeff<Eigen::PropagateNaN>()};
 }
 
-double read_number(const H5Reader& file, const char* path) {
-  return file.read<double>(path, {1}).front();
+template <class T>
+void require_range(const H5Reader& file, const char* path, const std::vector<T>& values, double low,
+                   double high) {
+  const auto [least, greatest] = range_of(values);
+  if (!(static_cast<double>(least) >= low && static_cast<double>(greatest) <= high)) {
+    file.damaged(path, "a value is not finite or out of range");
+  }
 }
 
-CloudHeader read_header(const H5Reader& file) {
-  CloudHeader header;
-  header.frame = file.frame();
-  header.points = file.shape(layout::kX)[0];
-  header.bbox_min = read_corner(file, layout::kBoxMin);
-  header.bbox_max = read_corner(file, layout::kBoxMax);
-  header.noise_m = read_number(file, layout::kNoise);
-  header.density = read_number(file, layout::kDensity);
-  header.tile_edge_m = read_number(file, layout::kTileEdge);
-  header.voxel_edge_m = read_number(file, layout::kVoxelEdge);
-  header.tile_ix = file.read<std::int32_t>(layout::kTileIx, {0});
-  header.tile_iy = file.read<std::int32_t>(layout::kTileIy, {header.tile_ix.size()});
-  header.tile_offset = file.read<std::uint64_t>(layout::kTileOffset, {header.tile_ix.size() + 1});
-  const std::vector<double> stations = file.read<double>(layout::kStations, {0, 3});
-  for (std::size_t i = 0; i + 2 < stations.size(); i += 3) {
-    header.stations.emplace_back(stations[i], stations[i + 1], stations[i + 2]);
+/// Whoever has the points may index memory with them.
+void check_points(const H5Reader& file, const CloudHeader& header, const CloudTile& points) {
+  if (points.size() == 0) {
+    return;
   }
-  return header;
+  require_range(file, layout::kX, points.x, header.bbox_min.x(), header.bbox_max.x());
+  require_range(file, layout::kY, points.y, header.bbox_min.y(), header.bbox_max.y());
+  require_range(file, layout::kZ, points.z, header.bbox_min.z(), header.bbox_max.z());
+  require_range(file, layout::kSurface, points.surface, 0, static_cast<double>(SurfaceClass::kSloped));
+  require_range(file, layout::kArea, points.area, 0, limits::kLargestArea_m2);
 }
 
-void check_tiles(const H5Reader& file, const CloudHeader& header) {
-  const std::vector<std::uint64_t>& offset = header.tile_offset;
-  if (offset.front() != 0 || offset.back() != header.points ||
-      !std::is_sorted(offset.begin(), offset.end())) {
-    file.damaged(layout::kTileOffset, "does not divide the points");
-  }
-  for (const char* path : {layout::kY, layout::kZ, layout::kSurface, layout::kAzimuth, layout::kArea}) {
-    if (file.shape(path) != h5::Shape{header.points}) {
-      file.damaged(path, "has not one value per point");
-    }
-  }
+template <class T>
+void keep(std::vector<T>& values, std::uint64_t first, std::uint64_t count) {
+  values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(first));
+  values.resize(count);
 }
 
 }  // namespace
 
-CloudReader::CloudReader(const std::filesystem::path& path) : state_(std::make_unique<State>(path)) {
-  State& state = *state_;
-  state.header = read_header(state.file);
-  check_tiles(state.file, state.header);
-  if (state.header.points == 0) {
-    return;
-  }
-  state.x = state.file.contiguous_offset(layout::kX);
-  state.y = state.file.contiguous_offset(layout::kY);
-  state.z = state.file.contiguous_offset(layout::kZ);
-  state.surface = state.file.contiguous_offset(layout::kSurface);
-  state.azimuth = state.file.contiguous_offset(layout::kAzimuth);
-  state.area = state.file.contiguous_offset(layout::kArea);
-  state.descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (state.descriptor < 0) {
-    throw StageError(errors::kArtefactMissing, path.string(), "cannot be opened", "run ingest again");
-  }
-}
+CloudReader::CloudReader(const std::filesystem::path& path) : state_(std::make_unique<State>(path)) {}
 
 CloudReader::~CloudReader() = default;
 
@@ -113,29 +92,54 @@ void CloudReader::read_tile(std::size_t index, CloudTile& tile) const {
 
 void CloudReader::read_part(std::size_t index, std::uint64_t first_in_tile, std::uint64_t count,
                             CloudTile& tile) const {
+  const std::uint64_t begin = state_->header.tile_offset.at(index);
+  const std::uint64_t points = state_->header.tile_offset.at(index + 1) - begin;
+  if (first_in_tile > points || count > points - first_in_tile) {
+    throw std::out_of_range("a tile of a cloud has fewer points");
+  }
+  const std::uint64_t before = first_in_tile % layout::kBlock;
+  const std::uint64_t end =
+      std::min(points, (first_in_tile + count + layout::kBlock - 1) / layout::kBlock * layout::kBlock);
+  read_blocks(begin + first_in_tile - before, end - (first_in_tile - before), tile);
+  if (tile.size() != count) {
+    keep(tile.x, before, count);
+    keep(tile.y, before, count);
+    keep(tile.z, before, count);
+    keep(tile.surface, before, count);
+    keep(tile.azimuth, before, count);
+    keep(tile.area, before, count);
+  }
+}
+
+void CloudReader::read_blocks(std::uint64_t first, std::uint64_t count, CloudTile& tile) const {
   const State& state = *state_;
-  const std::uint64_t first = state.header.tile_offset.at(index) + first_in_tile;
-  const auto points = static_cast<std::size_t>(count);
-  const auto read = [&](auto& values, std::uint64_t dataset, const char* name) {
-    values.resize(points);
-    const std::size_t size = sizeof(values[0]);
-    std::size_t done = 0;
-    while (done < points * size) {
-      const ssize_t got = ::pread(state.descriptor, reinterpret_cast<char*>(values.data()) + done,
-                                  points * size - done, static_cast<off_t>(dataset + first * size + done));
-      if (got <= 0 && !(got < 0 && errno == EINTR)) {
-        throw StageError(errors::kArtefactDamaged, state.file.path().string() + ": " + name, "cannot be read",
-                         "run ingest again");
+  const h5::Content& content = state.file.content();
+  std::size_t first_block = 0;
+  if (state.blocks) {
+    const std::vector<std::uint64_t>& offset = state.blocks->offset;
+    first_block =
+        static_cast<std::size_t>(std::lower_bound(offset.begin(), offset.end(), first) - offset.begin());
+  }
+  const auto read = [&](std::size_t column, auto& values) {
+    constexpr std::uint64_t kSize = sizeof(values[0]);
+    const char* name = layout::kColumns[column];
+    values.resize(count);
+    content.read(name, *state.columns[column], first * kSize, count * kSize, values.data());
+    for (std::uint64_t done = 0, b = first_block; state.blocks && done < count; done += layout::kBlock, ++b) {
+      const std::uint64_t points = std::min(layout::kBlock, count - done);
+      const std::uint64_t sum = h5::checksum_of(values.data() + done, points * kSize);
+      if (kDigestsCount && sum != state.blocks->sum(b, column)) {
+        h5::throw_damaged_block(content, name, b);
       }
-      done += got > 0 ? static_cast<std::size_t>(got) : 0;
     }
   };
-  read(tile.x, state.x, layout::kX);
-  read(tile.y, state.y, layout::kY);
-  read(tile.z, state.z, layout::kZ);
-  read(tile.surface, state.surface, layout::kSurface);
-  read(tile.azimuth, state.azimuth, layout::kAzimuth);
-  read(tile.area, state.area, layout::kArea);
+  read(0, tile.x);
+  read(1, tile.y);
+  read(2, tile.z);
+  read(3, tile.surface);
+  read(4, tile.azimuth);
+  read(5, tile.area);
+  check_points(state.file, state.header, tile);
 }
 
 void CloudReader::for_each_tile(const std::function<void(std::size_t, const CloudTile&)>& visit,
@@ -147,8 +151,8 @@ void CloudReader::for_each_tile(const std::function<void(std::size_t, const Clou
   std::vector<Part> parts;
   for (std::size_t i = 0; i < tiles(); ++i) {
     const std::uint64_t points = header().tile_offset[i + 1] - header().tile_offset[i];
-    for (std::uint64_t first = 0; first < points; first += kPart) {
-      parts.push_back({i, first, std::min(kPart, points - first)});
+    for (std::uint64_t first = 0; first < points; first += layout::kBlock) {
+      parts.push_back({i, first, std::min(layout::kBlock, points - first)});
     }
   }
   tbb::enumerable_thread_specific<CloudTile> points_of_threads;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "common/artefact/h5.h"
+#include "common/artefact/h5_blocks.h"
 #include "common/cloud/cloud_io.h"
 #include "common/cloud/cloud_layout.h"
 
@@ -13,12 +14,60 @@ namespace roomcut {
 
 namespace layout = cloud_layout;
 
+namespace {
+
+/// The checksums of the blocks, made as the points come.
+class BlockSums {
+ public:
+  void add(const CloudTile& part) {
+    for (std::size_t first = 0; first < part.size();) {
+      const std::size_t count =
+          std::min(part.size() - first, static_cast<std::size_t>(layout::kBlock - open_));
+      const auto update = [&](std::size_t column, const auto& values) {
+        columns_[column].update(values.data() + first, count * sizeof(values[0]));
+      };
+      update(0, part.x);
+      update(1, part.y);
+      update(2, part.z);
+      update(3, part.surface);
+      update(4, part.azimuth);
+      update(5, part.area);
+      first += count;
+      open_ += count;
+      if (open_ == layout::kBlock) {
+        close();
+      }
+    }
+  }
+  /// Ends the block that has begun, if one has.
+  void close() {
+    if (open_ > 0) {
+      for (h5::Checksum& column : columns_) {
+        sums_.push_back(column.take());
+      }
+      offset_.push_back(offset_.back() + open_);
+      open_ = 0;
+    }
+  }
+  const std::vector<std::uint64_t>& offset() const { return offset_; }
+  const std::vector<std::uint64_t>& sums() const { return sums_; }
+
+ private:
+  std::array<h5::Checksum, layout::kColumns.size()> columns_;
+  std::uint64_t open_ = 0;  ///< points of the block that has begun
+  std::vector<std::uint64_t> offset_{0};
+  std::vector<std::uint64_t> sums_;
+};
+
+}  // namespace
+
 struct CloudWriter::State {
   State(const std::filesystem::path& path, const Provenance& provenance, const CloudHeader& from)
       : file(path, artefacts::kCloud, provenance, from.frame), header(from) {}
   H5Writer file;
   CloudHeader header;
   std::uint64_t points = 0;  ///< appended so far
+  BlockSums sums;
   std::array<float, 3> low{}, high{};
 };
 
@@ -53,14 +102,14 @@ CloudWriter::CloudWriter(const std::filesystem::path& path, const Provenance& pr
   state_->high.fill(std::numeric_limits<float>::lowest());
   const h5::Shape shape{header.points};
   H5Writer& file = state_->file;
-  file.begin<float>(layout::kX, shape, "m", "coordinate, local frame");
-  file.begin<float>(layout::kY, shape, "m", "coordinate, local frame");
-  file.begin<float>(layout::kZ, shape, "m", "height, local frame");
-  file.begin<std::uint8_t>(layout::kSurface, shape, "1", "class: 0 none, 1 horizontal, 2 wall, 3 sloped");
+  file.begin<float>(layout::kX, shape, "m", "coordinate, local frame", 0);
+  file.begin<float>(layout::kY, shape, "m", "coordinate, local frame", 1);
+  file.begin<float>(layout::kZ, shape, "m", "height, local frame", 2);
+  file.begin<std::uint8_t>(layout::kSurface, shape, "1", "class: 0 none, 1 horizontal, 2 wall, 3 sloped", 3);
   file.begin<std::uint8_t>(
       layout::kAzimuth, shape, "1",
-      "direction of a wall's normal: theta = (value + 1/2) * pi / 256; 0 for other classes");
-  file.begin<float>(layout::kArea, shape, "m^2", "surface area that the point stands for");
+      "direction of a wall's normal: theta = (value + 1/2) * pi / 256; 0 for other classes", 4);
+  file.begin<float>(layout::kArea, shape, "m^2", "surface area that the point stands for", 5);
 }
 
 CloudWriter::~CloudWriter() = default;
@@ -77,7 +126,9 @@ void CloudWriter::append(const CloudTile& part, bool complete) {
   widen(part.y, state_->low[1], state_->high[1]);
   widen(part.z, state_->low[2], state_->high[2]);
   state_->points += part.size();
+  state_->sums.add(part);
   if (complete) {
+    state_->sums.close();
     state_->header.tile_offset.push_back(state_->points);
   }
 }
@@ -98,6 +149,11 @@ bool CloudWriter::finish() {
     header.bbox_max = as_point(state_->high);
   }
   H5Writer& file = state_->file;
+  const BlockSums& sums = state_->sums;
+  file.write(layout::kBlockOffset, sums.offset(), "1", "first point of each block, and the total");
+  file.write(layout::kChecksum, std::span<const std::uint64_t>(sums.sums()),
+             {sums.offset().size() - 1, layout::kColumns.size()}, "1",
+             "XXH3 of the bytes of each block in x, y, z, surface, azimuth, area");
   file.write(layout::kTileIx, header.tile_ix, "1", "tile i covers [ix, ix + 1) edges in x");
   file.write(layout::kTileIy, header.tile_iy, "1", "and [iy, iy + 1) edges in y; sorted by (iy, ix)");
   file.write(layout::kTileOffset, header.tile_offset, "1", "first point of each tile, and the total");

@@ -23,8 +23,10 @@ inline constexpr ErrorCode kScanTruncated{"C05",
 inline constexpr ErrorCode kScanNoPoints{"C06", ExitCode::kInput};  ///< header only, no finite point
 inline constexpr ErrorCode kScanTooFewPoints{
     "C07", ExitCode::kInput};  ///< finite points, but too few to mean a building
-inline constexpr ErrorCode kScanBadLine{"C08", ExitCode::kInput};  ///< a text line that is not a point
-inline constexpr ErrorCode kScanExtent{"C09", ExitCode::kInput};   ///< degenerate or absurd extent (unit?)
+inline constexpr ErrorCode kScanBadLine{"C08", ExitCode::kInput};    ///< a text line that is not a point
+inline constexpr ErrorCode kScanExtent{"C09", ExitCode::kInput};     ///< degenerate or absurd extent (unit?)
+inline constexpr ErrorCode kScanTooCoarse{"C10", ExitCode::kInput};  ///< coordinates too coarse for a model
+inline constexpr ErrorCode kScanColumns{"C11", ExitCode::kInput};    ///< which columns of a text are x, y, z?
 
 // A: artefacts
 inline constexpr ErrorCode kArtefactMissing{"A01", ExitCode::kInput};  ///< an input artefact is not there

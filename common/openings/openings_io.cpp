@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "common/artefact/artefact_check.h"
@@ -21,7 +22,6 @@ namespace roomcut {
 namespace {
 
 constexpr const char* kMember = "roomcut";
-constexpr const char* kRemedy = "make it again: rerun find_openings";
 
 /// Six decimals whatever the locale.
 std::string fixed(double value) {
@@ -59,27 +59,23 @@ std::string features_text(const Openings& openings) {
   return text;
 }
 
-double finite(const Json& value) {
-  const double number = value.get<double>();
-  if (!std::isfinite(number)) {
-    throw std::invalid_argument("a number is not finite");
-  }
-  return number;
-}
+constexpr double kMostSpread = 1e3;  ///< a share, with room for rounding
 
 OpeningProof proof_from(const Json& value) {
-  return {value.at("points").get<std::uint32_t>(), finite(value.at("spread")), finite(value.at("sigma_m"))};
+  constexpr std::int64_t kMostPoints = std::numeric_limits<std::uint32_t>::max();
+  return {static_cast<std::uint32_t>(whole_number_in(value.at("points"), 0, kMostPoints)),
+          number_in(value.at("spread"), 0, kMostSpread), local_metres(value.at("sigma_m"))};
 }
 
 Opening opening_from(const Json& feature) {
   const Json& geometry = feature.at("geometry");
   const Json& properties = feature.at("properties");
   if (geometry.at("type") != "LineString" || geometry.at("coordinates").size() != 2) {
-    throw std::invalid_argument("the geometry is no LineString of two points");
+    throw BadJson("the geometry is no LineString of two points");
   }
   const auto point = [&](std::size_t i) {
     const Json& p = geometry.at("coordinates").at(i);
-    return Vec2(finite(p.at(0)), finite(p.at(1)));
+    return Vec2(local_metres(p.at(0)), local_metres(p.at(1)));
   };
   Opening opening;
   opening.id = properties.at("opening_id").get<std::string>();
@@ -87,14 +83,14 @@ Opening opening_from(const Json& feature) {
   opening.wall_b = properties.at("walls").at(1).get<std::string>();
   opening.jamb_a = point(0);
   opening.jamb_b = point(1);
-  opening.thickness_m = finite(properties.at("thickness_m"));
-  opening.sill_z = finite(properties.at("sill_z_m"));
-  opening.head_z = finite(properties.at("head_z_m"));
+  opening.thickness_m = local_metres(properties.at("thickness_m"));
+  opening.sill_z = local_metres(properties.at("sill_z_m"));
+  opening.head_z = local_metres(properties.at("head_z_m"));
   opening.proof_a = proof_from(properties.at("jamb_a"));
   opening.proof_b = proof_from(properties.at("jamb_b"));
   opening.proof_head = proof_from(properties.at("head"));
   if (opening.width() <= 0 || opening.height() <= 0) {
-    throw std::invalid_argument("the opening has no width or no height");
+    throw BadJson("the opening has no width or no height");
   }
   return opening;
 }
@@ -104,8 +100,10 @@ std::vector<Opening> openings_from(const Json& features) {
   for (std::size_t i = 0; i < features.size(); ++i) {
     try {
       openings.push_back(opening_from(features.at(i)));
-    } catch (const std::exception& error) {
-      throw std::invalid_argument("features[" + std::to_string(i) + "]: " + error.what());
+    } catch (const Json::exception& error) {
+      throw BadJson("features[" + std::to_string(i) + "]: " + short_message(error));
+    } catch (const BadJson& error) {
+      throw BadJson("features[" + std::to_string(i) + "]: " + error.what());
     }
   }
   return openings;
@@ -120,21 +118,23 @@ std::string payload_of(const Openings& normalised) {
 
 OpeningsFile read_openings(const std::filesystem::path& path) {
   OpeningsFile file;
+  std::string stated;
   try {
-    const Json document = Json::parse(read_text_file(path));
+    const Json document = parse_json(read_text_file(path));
     const Json& member = document.at(kMember);
     check_type_and_version(path, member.at("artefact").get<std::string>(),
                            member.at("schema_version").get<std::string>(), artefacts::kOpenings);
     file.content.frame = frame_from_json(member.at("frame"));
     file.content.cells_payload_sha256 = member.at("cells_payload_sha256").get<std::string>();
     file.content.openings = openings_from(document.at("features"));
+    stated = member.at("provenance").at("payload_sha256").get<std::string>();
   } catch (const Json::exception& error) {
-    throw StageError(errors::kArtefactDamaged, path.string(),
-                     std::string("not an openings artefact: ") + error.what(), kRemedy);
-  } catch (const std::invalid_argument& error) {
-    throw StageError(errors::kArtefactDamaged, path.string(), error.what(), kRemedy);
+    throw_damaged(path, "", "not an openings artefact: " + short_message(error));
+  } catch (const BadJson& error) {
+    throw_damaged(path, "", error.what());
   }
   file.payload_sha256 = payload_of(normalised_openings(file.content));
+  require_payload(path, stated, file.payload_sha256);
   return file;
 }
 

@@ -150,7 +150,7 @@ void load_dump(const std::filesystem::path& path, const std::string& stage, Para
   } catch (const StageError& error) {
     throw StageError(errors::kConfigUnreadable, file, error.problems().front().what);
   }
-  const Json root = Json::parse(text, nullptr, false);
+  const Json root = try_parse_json(text);
   const bool whole = root.is_object() && root.contains("params") && root["params"].is_object() &&
                      root.contains("stage") && root["stage"] == stage;
   if (!whole) {

@@ -3,13 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
+#include <utility>
 
-#include "common/artefact/h5.h"
+#include "common/artefact/h5_values.h"
+#include "common/artefact/limits.h"
 #include "common/artefact/types.h"
 
 namespace roomcut {
 namespace {
+
+constexpr double kLargestShare = 1.001;  ///< with room for rounding
 
 template <class T, class Field>
 std::vector<T> column(const std::vector<Level>& levels, Field field) {
@@ -70,39 +75,37 @@ void write_wall_slices(H5Writer& file, const std::vector<OccupancyGrid>& grids) 
              "0 = no wall points, 255 = all points agree on the azimuth");
 }
 
-double read_scalar(const H5Reader& file, const std::string& path) {
-  const double value = file.read<double>(path, {1}).front();
-  if (!std::isfinite(value)) file.damaged(path, "is not finite");
-  return value;
-}
-
-Vec3 read_corner(const H5Reader& file, const std::string& path) {
-  const std::vector<double> values = file.read<double>(path, {3});
-  return {values[0], values[1], values[2]};
-}
-
 std::vector<Level> read_levels(const H5Reader& file) {
-  const auto z = file.read<double>("levels/z");
+  using limits::kFarthest_m;
+  const auto heights = [&file](const char* path, std::uint64_t n) {
+    return read_in_range<double>(file, path, {n}, -kFarthest_m, kFarthest_m);
+  };
+  const auto areas = [&file](const char* path, std::uint64_t n) {
+    return read_in_range<double>(file, path, {n}, 0, limits::kLargestArea_m2);
+  };
+  const auto z = heights("levels/z", 0);
   const std::uint64_t n = z.size();
   if (n < 2) file.damaged("levels/z", "has fewer than two levels");
-  const auto lo = file.read<double>("levels/lo", {n});
-  const auto hi = file.read<double>("levels/hi", {n});
-  const auto area = file.read<double>("levels/area", {n});
-  const auto component = file.read<double>("levels/component", {n});
-  const auto cap = file.read<std::uint8_t>("levels/cap", {n});
-  const auto step = file.read<std::uint8_t>("levels/step", {n});
+  const auto lo = heights("levels/lo", n);
+  const auto hi = heights("levels/hi", n);
+  const auto area = areas("levels/area", n);
+  const auto component = areas("levels/component", n);
+  const auto cap = read_in_range<std::uint8_t>(file, "levels/cap", {n}, 0, 1);
+  const auto step = read_in_range<std::uint8_t>(file, "levels/step", {n}, 0, 1);
   std::vector<Level> levels(n);
   for (std::size_t i = 0; i < n; ++i) {
     levels[i] = {z[i], lo[i], hi[i], area[i], component[i], cap[i] != 0, step[i] != 0};
-    if (!std::isfinite(z[i]) || (i > 0 && z[i] <= z[i - 1])) file.damaged("levels/z", "is not ascending");
+    if (i > 0 && z[i] <= z[i - 1]) file.damaged("levels/z", "is not ascending");
+    if (lo[i] > hi[i]) file.damaged("levels/lo", "lies above levels/hi");
   }
   return levels;
 }
 
 template <class T>
 void split(const H5Reader& file, const std::string& path, const std::vector<std::uint64_t>& offset,
-           std::vector<OccupancyGrid>& grids, std::vector<T> OccupancyGrid::*field) {
-  const std::vector<T> values = file.read<T>(path, {offset.back()});
+           std::vector<OccupancyGrid>& grids, std::vector<T> OccupancyGrid::*field,
+           double low = std::numeric_limits<T>::lowest(), double high = std::numeric_limits<T>::max()) {
+  const std::vector<T> values = read_in_range<T>(file, path, {offset.back()}, low, high);
   for (std::size_t k = 0; k < grids.size(); ++k) {
     (grids[k].*field)
         .assign(values.begin() + static_cast<std::ptrdiff_t>(offset[k]),
@@ -110,7 +113,33 @@ void split(const H5Reader& file, const std::string& path, const std::vector<std:
   }
 }
 
-void read_wall_slices(const H5Reader& file, std::vector<OccupancyGrid>& grids) {
+/// Cells index rows of memory, so they must be in order, in the box, and hold their centroid.
+void check_cells(const H5Reader& file, const Slices& slices) {
+  constexpr double kSlack_m = 1e-4;  // of a centroid that was rounded to float32 …
+  constexpr double kSlack = 1e-6;    // … far from the origin
+  const auto index = [&slices](double m) { return std::floor(m / slices.tau_m); };
+  const auto in_cell = [&](double m, std::int32_t cell) {
+    const double off = std::abs(m - (cell + 0.5) * slices.tau_m);
+    return off <= 0.5 * slices.tau_m + kSlack_m + kSlack * std::abs(m);
+  };
+  const auto in_box = [&](std::int32_t cell, int axis) {
+    return cell >= index(slices.bbox_min[axis]) - 1 && cell <= index(slices.bbox_max[axis]) + 1;
+  };
+  for (const OccupancyGrid& grid : slices.wall_slices) {
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+      if (i > 0 && std::pair(grid.iy[i], grid.ix[i]) <= std::pair(grid.iy[i - 1], grid.ix[i - 1])) {
+        file.damaged("wall_slices/iy", "the cells are not sorted by (iy, ix)");
+      }
+      if (!in_box(grid.ix[i], 0)) file.damaged("wall_slices/ix", "a cell lies outside the scan's box");
+      if (!in_box(grid.iy[i], 1)) file.damaged("wall_slices/iy", "a cell lies outside the scan's box");
+      if (!in_cell(grid.x[i], grid.ix[i])) file.damaged("wall_slices/x", "a centroid is not in its cell");
+      if (!in_cell(grid.y[i], grid.iy[i])) file.damaged("wall_slices/y", "a centroid is not in its cell");
+    }
+  }
+}
+
+void read_wall_slices(const H5Reader& file, Slices& slices) {
+  std::vector<OccupancyGrid>& grids = slices.wall_slices;
   const auto offset = file.read<std::uint64_t>("wall_slices/offset", {grids.size() + 1});
   if (offset.front() != 0 || !std::is_sorted(offset.begin(), offset.end())) {
     file.damaged("wall_slices/offset", "is not ascending from 0");
@@ -119,31 +148,31 @@ void read_wall_slices(const H5Reader& file, std::vector<OccupancyGrid>& grids) {
   split(file, "wall_slices/iy", offset, grids, &OccupancyGrid::iy);
   split(file, "wall_slices/x", offset, grids, &OccupancyGrid::x);
   split(file, "wall_slices/y", offset, grids, &OccupancyGrid::y);
-  split(file, "wall_slices/coverage", offset, grids, &OccupancyGrid::coverage);
-  split(file, "wall_slices/weight", offset, grids, &OccupancyGrid::weight_m);
-  split(file, "wall_slices/area", offset, grids, &OccupancyGrid::area_m2);
+  split(file, "wall_slices/coverage", offset, grids, &OccupancyGrid::coverage, 0, kLargestShare);
+  split(file, "wall_slices/weight", offset, grids, &OccupancyGrid::weight_m, 0, limits::kLargestEdge_m);
+  split(file, "wall_slices/area", offset, grids, &OccupancyGrid::area_m2, 0, limits::kLargestArea_m2);
   split(file, "wall_slices/azimuth", offset, grids, &OccupancyGrid::azimuth);
   split(file, "wall_slices/azimuth_trust", offset, grids, &OccupancyGrid::azimuth_trust);
+  check_cells(file, slices);
 }
 
 }  // namespace
 
 Slices read_slices(const std::filesystem::path& path, bool grids) {
+  using limits::kFarthest_m;
   const H5Reader file(path, artefacts::kSlices);
   Slices slices;
   slices.frame = file.frame();
-  slices.bbox_min = read_corner(file, "bbox_min");
-  slices.bbox_max = read_corner(file, "bbox_max");
-  slices.noise_m = read_scalar(file, "noise");
-  slices.density = read_scalar(file, "density");
-  slices.tau_m = read_scalar(file, "tau");
-  if (slices.tau_m <= 0) file.damaged("tau", "is not positive");
-  slices.histogram.z0 = read_scalar(file, "histogram/z0");
-  slices.histogram.bin_m = read_scalar(file, "histogram/bin");
-  slices.histogram.area_m2 = file.read<double>("histogram/area");
+  read_box(file, "bbox_min", "bbox_max", slices.bbox_min, slices.bbox_max);
+  slices.noise_m = read_number(file, "noise", 0, kFarthest_m);
+  slices.density = read_number(file, "density", 0, limits::kDensest);
+  slices.tau_m = read_number(file, "tau", limits::kSmallestEdge_m, limits::kLargestEdge_m);
+  slices.histogram.z0 = read_number(file, "histogram/z0", -kFarthest_m, kFarthest_m);
+  slices.histogram.bin_m = read_number(file, "histogram/bin", 0, limits::kLargestEdge_m);
+  slices.histogram.area_m2 = read_in_range<double>(file, "histogram/area", {0}, 0, limits::kLargestArea_m2);
   slices.levels = read_levels(file);
   slices.wall_slices.resize(slices.levels.size() - 1);
-  if (grids) read_wall_slices(file, slices.wall_slices);
+  if (grids) read_wall_slices(file, slices);
   return slices;
 }
 

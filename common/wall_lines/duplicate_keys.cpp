@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/wall_lines/duplicate_keys.h"
 
+#include <algorithm>
 #include <map>
 
 #include "common/artefact/json.h"
@@ -12,7 +13,7 @@ namespace {
 /// Walks the text without building values; keeps the keys of the open objects only.
 class DuplicateFinder : public nlohmann::json_sax<Json> {
  public:
-  explicit DuplicateFinder(std::vector<DuplicateKey>& found) : found_(found) {}
+  DuplicateFinder(std::vector<DuplicateKey>& found, std::size_t most) : found_(found), most_(most) {}
 
   bool null() override { return value(); }
   bool boolean(bool) override { return value(); }
@@ -28,10 +29,10 @@ class DuplicateFinder : public nlohmann::json_sax<Json> {
   bool key(string_t& name) override {
     Level& level = levels_.back();
     if (++level.times[name] == 2) {
-      found_.push_back({path(), name});
+      found_.push_back({path(), shortened(name)});
     }
     level.key = name;
-    return true;
+    return found_.size() < most_;
   }
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override {
     return false;
@@ -68,21 +69,32 @@ class DuplicateFinder : public nlohmann::json_sax<Json> {
       if (level.array) {
         text += "[" + std::to_string(level.index) + "]";
       } else {
-        text += (text.empty() ? "" : ".") + level.key;
+        text += (text.empty() ? "" : ".") + shortened(level.key);
       }
     }
     return text;
   }
 
+  /// A name as a message can hold it; cut between letters.
+  static std::string shortened(const std::string& name) {
+    constexpr std::size_t kLongest = 80;
+    std::size_t end = std::min(name.size(), kLongest);
+    while (end < name.size() && end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0U) == 0x80U) {
+      --end;
+    }
+    return end < name.size() ? name.substr(0, end) + "…" : name;
+  }
+
   std::vector<DuplicateKey>& found_;
+  std::size_t most_;
   std::vector<Level> levels_;
 };
 
 }  // namespace
 
-std::vector<DuplicateKey> find_duplicate_keys(const std::string& text) {
+std::vector<DuplicateKey> find_duplicate_keys(const std::string& text, std::size_t most) {
   std::vector<DuplicateKey> found;
-  DuplicateFinder finder(found);
+  DuplicateFinder finder(found, most);
   Json::sax_parse(text, &finder);
   return found;
 }

@@ -12,8 +12,9 @@ struct DuplicateKey {
   std::string key;
 };
 
-/// All repeated keys of a JSON text, each once, in the order of the text. A plain parser would silently keep
-/// one of the values. Pre: `text` is valid JSON.
-std::vector<DuplicateKey> find_duplicate_keys(const std::string& text);
+/// The first `most` repeated keys of a JSON text, each once, in the order of the text; the texts are cut to
+/// what a message can hold. A plain parser would silently keep one of the values. Pre: parse_json() takes
+/// `text`.
+std::vector<DuplicateKey> find_duplicate_keys(const std::string& text, std::size_t most);
 
 }  // namespace roomcut

@@ -15,6 +15,8 @@ namespace roomcut {
 namespace {
 
 constexpr double kSameOrigin_m = 1e-6;
+constexpr std::size_t kMostDuplicates =
+    20;  ///< reported; who has more has a broken program, not more to learn
 
 std::string text_of(const std::filesystem::path& path) {
   std::error_code failure;
@@ -32,21 +34,15 @@ std::string text_of(const std::filesystem::path& path) {
   return text.str();
 }
 
-/// nlohmann's message without its own prefix: "parse error at line 3, column 5: …".
-std::string short_message(const std::string& message) {
-  const std::size_t end = message.find("] ");
-  return end == std::string::npos ? message : message.substr(end + 2);
-}
-
 Json parse(const std::string& text, const EditReport& report) {
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
     throw StageError(errors::kLinesNotJson, report.path, "the file is empty",
                      "save it again, or remove it to work with the detected lines");
   }
   try {
-    return Json::parse(text);
-  } catch (const Json::exception& error) {
-    throw StageError(errors::kLinesNotJson, report.path, "not JSON: " + short_message(error.what()),
+    return parse_json(text);
+  } catch (const BadJson& error) {
+    throw StageError(errors::kLinesNotJson, report.path, std::string("not JSON: ") + error.what(),
                      "look at the place named: a missing or a trailing comma, an open bracket or quote?");
   }
 }
@@ -90,9 +86,9 @@ void check_version(const Json& member, EditReport& report) {
 /// The distance that the origin moved since the edit began, in plan.
 Vec2 check_frame(const Json& member, const Frame& base, EditReport& report) {
   if (member.contains("length_unit") && member["length_unit"] != "m") {
-    report.problem(errors::kLinesUnit, kMember,
-                   "length_unit is " + member["length_unit"].dump() + ", lines are in \"m\"",
-                   "scale the coordinates to metres and write \"m\"");
+    std::string what = "length_unit is ";
+    what.append(excerpt(member["length_unit"])).append(", lines are in \"m\"");
+    report.problem(errors::kLinesUnit, kMember, what, "scale the coordinates to metres and write \"m\"");
   }
   if (!member.contains("frame")) {
     return {0, 0};
@@ -100,8 +96,8 @@ Vec2 check_frame(const Json& member, const Frame& base, EditReport& report) {
   Frame frame;
   try {
     frame = frame_from_json(member["frame"]);
-  } catch (const Json::exception&) {
-    report.problem(errors::kLinesUnit, kMember, "frame is not complete",
+  } catch (const std::exception&) {
+    report.problem(errors::kLinesUnit, kMember, "frame is not complete, or not one",
                    "copy the member `frame` from the detected lines");
     return {0, 0};
   }
@@ -127,7 +123,7 @@ Json read_edit_document(const std::filesystem::path& path, EditReport& report) {
   const std::string text = text_of(path);
   Json document = parse(text, report);
   check_collection(document, report);
-  for (const DuplicateKey& duplicate : find_duplicate_keys(text)) {
+  for (const DuplicateKey& duplicate : find_duplicate_keys(text, kMostDuplicates)) {
     report.problem(errors::kLinesDuplicateKey, duplicate.object,
                    "the key \"" + duplicate.key + "\" stands twice", "keep the one that is meant");
   }
@@ -137,8 +133,9 @@ Json read_edit_document(const std::filesystem::path& path, EditReport& report) {
 EditOrigin read_edit_member(const Json& document, const Frame& base_frame, EditReport& report) {
   EditOrigin origin;
   if (!document.contains(kMember)) {
-    report.warn("", std::string("the member `") + kMember +
-                        "` is missing; unit, frame and base are taken from the detected lines");
+    std::string what = "the member `";
+    what.append(kMember).append("` is missing; unit, frame and base are taken from the detected lines");
+    report.warn("", what);
     return origin;
   }
   const Json& member = document[kMember];

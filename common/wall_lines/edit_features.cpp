@@ -62,7 +62,7 @@ Json list_from_text(std::string text) {
   if (text.empty() || text.front() != '[') {
     text = "[" + text + "]";
   }
-  return Json::parse(text, nullptr, false);
+  return try_parse_json(text);
 }
 
 /// Indices of wall slices.
@@ -117,7 +117,7 @@ class FeatureReader {
     report_.problem(code, feature_place(index_, id_), what, hint);
   }
   void bad_property(const std::string& name, const Json& value, const std::string& wanted) {
-    problem(errors::kLinesProperty, "property " + name + " is " + value.dump() + ", must be " + wanted,
+    problem(errors::kLinesProperty, "property " + name + " is " + excerpt(value) + ", must be " + wanted,
             "correct it, or empty the field");
   }
 
@@ -206,7 +206,7 @@ class FeatureReader {
       const std::optional<double> y = pair ? number_of(point[1]) : std::nullopt;
       if (!x || !y || !std::isfinite(*x) || !std::isfinite(*y)) {
         problem(errors::kLinesCoordinates,
-                "point " + std::to_string(i) + " is " + point.dump() + ", must be two finite numbers",
+                "point " + std::to_string(i) + " is " + excerpt(point) + ", must be two finite numbers",
                 "write [x, y] in metres");
         return {};
       }

@@ -53,7 +53,7 @@ std::string feature_text(const WallLine& line) {
       fixed(line.support_m) + R"(, "rms_m": )" + fixed(line.rms_m) + R"(, "sigma_offset_m": )" +
       fixed(line.sigma_offset_m) + R"(, "sigma_angle_deg": )" + fixed(line.sigma_angle_rad * kRadToDeg) +
       R"(, "note": )" + (line.note.empty() ? "null" : json_text(line.note));
-  const Json extra = Json::parse(line.extra_json);
+  const Json extra = parse_json(line.extra_json);
   for (const auto& item : extra.items()) {
     text += ", " + json_text(item.key()) + ": " + canonical_json(item.value());
   }

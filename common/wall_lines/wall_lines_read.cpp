@@ -16,17 +16,11 @@ namespace roomcut {
 namespace {
 
 constexpr double kDegToRad = std::numbers::pi / 180.0;
-
-double finite(const Json& value) {
-  const double number = value.get<double>();
-  if (!std::isfinite(number)) {
-    throw std::invalid_argument("a number is not finite");
-  }
-  return number;
-}
+constexpr double kMostDegrees = 1e6;  ///< of a deviation: of a line that is not known at all
+constexpr int kMostLevels = 1'000'000;
 
 Vec2 point_from(const Json& value) {
-  return {finite(value.at(0)), finite(value.at(1))};
+  return {local_metres(value.at(0)), local_metres(value.at(1))};
 }
 
 std::string unknown_properties(const Json& properties) {
@@ -44,24 +38,27 @@ WallLine line_from(const Json& feature) {
   const Json& geometry = feature.at("geometry");
   const Json& properties = feature.at("properties");
   if (geometry.at("type") != "LineString" || geometry.at("coordinates").size() != 2) {
-    throw std::invalid_argument("the geometry is no LineString of two points");
+    throw BadJson("the geometry is no LineString of two points");
   }
   WallLine line;
   line.id = properties.at("wall_id").get<std::string>();
   line.a = point_from(geometry.at("coordinates").at(0));
   line.b = point_from(geometry.at("coordinates").at(1));
   if (line.a == line.b) {
-    throw std::invalid_argument("both ends are equal");
+    throw BadJson("both ends are equal");
   }
   line.source = source_from_name(properties.at("source").get<std::string>());
   line.locked = properties.at("locked").get<bool>();
   if (!properties.at("levels").is_null()) {
-    line.levels = properties.at("levels").get<std::vector<int>>();
+    line.levels.emplace();
+    for (const Json& level : properties.at("levels")) {
+      line.levels->push_back(static_cast<int>(whole_number_in(level, 0, kMostLevels)));
+    }
   }
-  line.support_m = finite(properties.at("support_m"));
-  line.rms_m = finite(properties.at("rms_m"));
-  line.sigma_offset_m = finite(properties.at("sigma_offset_m"));
-  line.sigma_angle_rad = finite(properties.at("sigma_angle_deg")) * kDegToRad;
+  line.support_m = local_metres(properties.at("support_m"));
+  line.rms_m = local_metres(properties.at("rms_m"));
+  line.sigma_offset_m = local_metres(properties.at("sigma_offset_m"));
+  line.sigma_angle_rad = number_in(properties.at("sigma_angle_deg"), 0, kMostDegrees) * kDegToRad;
   if (!properties.at("note").is_null()) {
     line.note = properties.at("note").get<std::string>();
   }
@@ -71,12 +68,12 @@ WallLine line_from(const Json& feature) {
 
 void read_member(const Json& member, WallLinesFile& file) {
   if (member.at("length_unit") != "m") {
-    throw std::invalid_argument("length_unit is not m");
+    throw BadJson("length_unit is not m");
   }
   file.content.frame = frame_from_json(member.at("frame"));
   const Json& box = member.at("bbox");
-  file.content.bbox_min = {finite(box.at(0)), finite(box.at(1))};
-  file.content.bbox_max = {finite(box.at(2)), finite(box.at(3))};
+  file.content.bbox_min = {local_metres(box.at(0)), local_metres(box.at(1))};
+  file.content.bbox_max = {local_metres(box.at(2)), local_metres(box.at(3))};
   file.content.base_sha256 = member.at("base_sha256").get<std::string>();
   file.provenance = provenance_from_json(member.at("provenance"));
 }
@@ -85,8 +82,10 @@ void read_features(const Json& features, std::vector<WallLine>& lines) {
   for (std::size_t i = 0; i < features.size(); ++i) {
     try {
       lines.push_back(line_from(features.at(i)));
+    } catch (const Json::exception& error) {
+      throw BadJson("features[" + std::to_string(i) + "]: " + short_message(error));
     } catch (const std::exception& error) {
-      throw std::invalid_argument("features[" + std::to_string(i) + "]: " + error.what());
+      throw BadJson("features[" + std::to_string(i) + "]: " + error.what());
     }
   }
   const auto by_id = [](const WallLine& a, const WallLine& b) { return a.id < b.id; };
@@ -94,33 +93,35 @@ void read_features(const Json& features, std::vector<WallLine>& lines) {
   const auto same_id = [](const WallLine& a, const WallLine& b) { return a.id == b.id; };
   const auto twice = std::adjacent_find(lines.begin(), lines.end(), same_id);
   if (twice != lines.end()) {
-    throw std::invalid_argument("wall_id " + twice->id + " stands twice");
+    throw BadJson("wall_id " + twice->id + " stands twice");
   }
 }
 
 }  // namespace
 
 WallLinesFile read_wall_lines(const std::filesystem::path& path) {
-  const std::string text = read_text_file(path);
-  const std::string remedy =
-      "make it again with the stage that writes it; lines drawn by hand go to edits/wall_lines.geojson";
   WallLinesFile file;
+  InputRecord record{"", artefacts::kWallLines.name, "", "", ""};
   try {
-    const Json document = Json::parse(text);
+    const Json document = parse_json(read_text_file(path));
     const Json& member = document.at(kMember);
-    check_type_and_version(path, member.at("artefact").get<std::string>(),
-                           member.at("schema_version").get<std::string>(), artefacts::kWallLines);
+    record.schema_version = member.at("schema_version").get<std::string>();
+    check_type_and_version(path, member.at("artefact").get<std::string>(), record.schema_version,
+                           artefacts::kWallLines);
     read_member(member, file);
     read_features(document.at("features"), file.content.lines);
-    remember_artefact(path, {"", artefacts::kWallLines.name, member.at("schema_version").get<std::string>(),
-                             member.at("provenance").at("payload_sha256").get<std::string>(), ""});
+    record.payload_sha256 = member.at("provenance").at("payload_sha256").get<std::string>();
   } catch (const Json::exception& error) {
-    throw StageError(errors::kArtefactDamaged, path.string(),
-                     std::string("not a wall_lines artefact: ") + error.what(), remedy);
-  } catch (const std::invalid_argument& error) {
-    throw StageError(errors::kArtefactDamaged, path.string(), error.what(), remedy);
+    throw_damaged(path, "", "not a wall_lines artefact: " + short_message(error));
+  } catch (const BadJson& error) {
+    throw_damaged(path, "", error.what());
   }
   file.payload_sha256 = wall_lines_payload_sha256(file.content);
+  if (file.payload_sha256 != record.payload_sha256) {
+    throw StageError(errors::kArtefactDamaged, path.string(), kNotAsWritten,
+                     std::string(kMakeAgain) + "; lines drawn by hand go to edits/wall_lines.geojson");
+  }
+  remember_artefact(path, record);
   return file;
 }
 

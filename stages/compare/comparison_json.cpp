@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <numbers>
 
+#include "common/artefact/artefact_check.h"
 #include "stages/compare/comparison_json.h"
 
 namespace roomcut {
@@ -82,13 +83,17 @@ ModelDistance read_distance(const std::filesystem::path& scores) {
     const Json& one = json.at("distance").at(name);
     return ModelDistance::OneWay{one.at("mean_m"), one.at("rms_m"), one.at("p95_m"), one.at("hausdorff_m")};
   };
-  ModelDistance distance{way("model_to_truth"), way("truth_to_model"), 0, 0, 0};
-  if (const Json& volume = json.at("volume"); volume.is_object()) {
-    distance.a_m3 = volume.at("truth_m3");
-    distance.b_m3 = volume.at("model_m3");
-    distance.common_m3 = volume.at("common_m3");
+  try {
+    ModelDistance distance{way("model_to_truth"), way("truth_to_model"), 0, 0, 0};
+    if (const Json& volume = json.at("volume"); volume.is_object()) {
+      distance.a_m3 = volume.at("truth_m3");
+      distance.b_m3 = volume.at("model_m3");
+      distance.common_m3 = volume.at("common_m3");
+    }
+    return distance;
+  } catch (const Json::exception& error) {
+    throw_damaged(scores, "", "a value is missing or of another type: " + short_message(error));
   }
-  return distance;
 }
 
 Json comparison_json(const RunFacts& a, const RunFacts& b, const Comparison& comparison,

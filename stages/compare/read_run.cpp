@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "common/artefact/artefact_check.h"
 #include "common/artefact/atomic_file.h"
 #include "common/artefact/h5.h"
 #include "common/artefact/json.h"
@@ -17,6 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr int kMostSpaces = 1'000'000;
 constexpr const char* kCloud = "10_ingest/cloud.h5";
 constexpr const char* kAccepted = "40_accept_lines/wall_lines.geojson";
 constexpr const char* kRefined = "80_refine_lines/wall_lines.geojson";
@@ -45,14 +47,34 @@ std::string text_of(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
+/// Runs `read`; what it finds to be missing or of another type in a JSON file is damage of that file.
+template <class Read>
+auto reading(const fs::path& path, const char* remedy, Read read) {
+  const auto damaged = [&](const std::string& what) {
+    return StageError(errors::kArtefactDamaged, path.string(), what, remedy);
+  };
+  try {
+    return read();
+  } catch (const Json::exception& error) {
+    throw damaged("a value is missing or of another type: " + short_message(error));
+  } catch (const BadJson& error) {
+    throw damaged(error.what());
+  }
+}
+
 /// What `auto` came to in this run, from the stage's log.
 Json chosen_values(const fs::path& log) {
-  Json values = Json::object();
-  const Json content = there(log) ? Json::parse(read_text_file(log), nullptr, false) : Json();
-  for (const Json& choice : content.is_object() ? content.value("chosen", Json::array()) : Json::array()) {
-    values[choice.value("parameter", "")] = choice.value("value", Json());
+  if (!there(log)) {
+    return Json::object();
   }
-  return values;
+  return reading(log, "delete it: then only what `auto` came to is not shown", [&log] {
+    Json values = Json::object();
+    const Json content = parse_json(read_text_file(log));
+    for (const Json& choice : content.value("chosen", Json::array())) {
+      values[choice.at("parameter").get<std::string>()] = choice.at("value");
+    }
+    return values;
+  });
 }
 
 void read_parameters(const fs::path& folder, RunFacts& run) {
@@ -62,7 +84,7 @@ void read_parameters(const fs::path& folder, RunFacts& run) {
     }
     const Provenance provenance = read_provenance(folder / file);
     const Json chosen = chosen_values(folder / "logs" / (std::string(stage) + ".json"));
-    const Json parameters = Json::parse(provenance.params_json, nullptr, false);
+    const Json parameters = try_parse_json(provenance.params_json);
     for (const auto& [name, value] : parameters.items()) {
       std::string text = text_of(value);
       if (chosen.contains(name)) {
@@ -79,15 +101,19 @@ void read_parameters(const fs::path& folder, RunFacts& run) {
   }
 }
 
+int index_in(const Json& entry, const char* name, int otherwise) {
+  return entry.contains(name) ? static_cast<int>(whole_number_in(entry[name], 0, kMostSpaces)) : otherwise;
+}
+
 SpaceFacts space_of(const Json& entry) {
   SpaceFacts space;
-  space.storey = entry.value("storey", 0);
-  space.number = entry.value("room", space.storey);
+  space.storey = index_in(entry, "storey", 0);
+  space.number = index_in(entry, "room", space.storey);
   if (entry.contains("centre_m")) {
-    space.centre = {entry["centre_m"].at(0).get<double>(), entry["centre_m"].at(1).get<double>()};
+    space.centre = {local_metres(entry["centre_m"].at(0)), local_metres(entry["centre_m"].at(1))};
   }
-  space.floor_z = entry.value("floor_z_m", 0.0);
-  space.ceiling_z = entry.value("ceiling_z_m", 0.0);
+  space.floor_z = local_metres(entry.value("floor_z_m", Json(0)));
+  space.ceiling_z = local_metres(entry.value("ceiling_z_m", Json(0)));
   space.area_m2 = entry.value("area_m2", 0.0);
   space.volume_m3 = entry.value("volume_m3", 0.0);
   space.height_m = entry.value("height_m", 0.0);
@@ -160,7 +186,8 @@ RunFacts read_run(const fs::path& folder) {
     run.openings = read_openings(folder / kOpenings).content.openings;
   }
   if (there(folder / "summary.json")) {
-    read_summary(folder / "summary.json", run);
+    const fs::path summary = folder / "summary.json";
+    reading(summary, kMakeAgain, [&] { read_summary(summary, run); });
   }
   return run;
 }

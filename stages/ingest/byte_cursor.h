@@ -3,14 +3,14 @@
 
 #include <vector>
 
-#include "stages/ingest/scan_file.h"
+#include "stages/ingest/scan_bytes.h"
 
 namespace roomcut {
 
 /// Walks through a file in big blocks, for records whose size only shows on the way.
 class ByteCursor {
  public:
-  ByteCursor(const ScanFile& file, std::uint64_t offset) : file_(file), offset_(offset) {}
+  ByteCursor(const ScanBytes& file, std::uint64_t offset) : file_(file), offset_(offset) {}
 
   std::uint64_t offset() const { return offset_; }
   /// The next `bytes` bytes (at most a few), or nullptr when the file ends before.
@@ -32,7 +32,7 @@ class ByteCursor {
     buffer_.resize(file_.read(offset_, buffer_.data(), kBlock));
   }
 
-  const ScanFile& file_;
+  const ScanBytes& file_;
   std::uint64_t offset_;
   std::uint64_t begin_ = 0;
   std::vector<unsigned char> buffer_;

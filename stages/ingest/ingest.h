@@ -18,6 +18,7 @@ namespace roomcut {
 /// Where the points went.
 struct IngestCounts {
   std::uint64_t read = 0;
+  std::uint64_t no_returns = 0;  ///< dropped: exactly 0 0 0, a beam that met nothing
   std::uint64_t not_finite = 0;  ///< dropped: NaN or infinite
   std::uint64_t ghosts = 0;      ///< dropped: far from the building, in sparse cells
   std::uint64_t kept = 0;
@@ -48,7 +49,7 @@ struct TiledScan {
 
 /// First pass: reads every block once, in parallel, and sorts its points into tiles. `advance(1)` is called
 /// per block. Errors: those of the reader (of the first faulty block), kScanNoPoints, kScanTooFewPoints,
-/// kScanExtent, kCannotWrite. The result does not depend on the number of threads.
+/// kScanExtent, kScanTooCoarse, kCannotWrite. The result does not depend on the number of threads.
 TiledScan tile_scan(const ScanReader& reader, const ScanSettings& settings, const IngestParams& params,
                     const Advance& advance = {});
 

@@ -9,6 +9,7 @@
 #include "common/errors/codes.h"
 #include "stages/ingest/ingest.h"
 #include "stages/ingest/scan_stations.h"
+#include "stages/ingest/text_columns.h"
 
 namespace roomcut {
 
@@ -42,11 +43,16 @@ void report(StageRun& run, const TiledScan& scan, const SurfaceSummary& summary,
   const IngestCounts& counts = scan.counts;
   run.count("points read", static_cast<double>(counts.read));
   run.count("kept", static_cast<double>(counts.kept));
+  run.count("no return", static_cast<double>(counts.no_returns));
   run.count("not finite", static_cast<double>(counts.not_finite));
   run.count("ghosts", static_cast<double>(counts.ghosts));
   run.count("noise", 1000 * header.noise_m, "mm");
   run.count("density", header.density, "per m^2");
   run.count("stations", static_cast<double>(header.stations.size()));
+  if (counts.no_returns > 0) {
+    run.warn(std::to_string(counts.no_returns) +
+             " points are exactly 0 0 0, beams without return, and were dropped");
+  }
   if (counts.not_finite > 0) {
     run.warn(std::to_string(counts.not_finite) + " points with NaN or infinite coordinates were dropped");
   }
@@ -74,7 +80,7 @@ StageInfo ingest_info() {
   info.revision = 3;
   info.summary = "Reads a raw scan; finds surface class, azimuth, noise and density from sums in voxels.";
   info.inputs = {
-      {"scan", "", "The scan: PLY (ascii, binary) or text (.xyz .txt .csv .pts .asc)"},
+      {"scan", "", "The scan: PLY, PCD, PTX or text (.xyz .txt .csv .pts .asc)"},
       {"stations", "", "Scanner positions as text, x y z on each line, in the scan's unit and axes", true}};
   info.inputs[0].by_bytes = true;
   info.inputs[1].by_bytes = true;
@@ -82,6 +88,7 @@ StageInfo ingest_info() {
   info.options = {
       {"up", "z", "The scan's up axis", {"x", "y", "z", "-x", "-y", "-z"}},
       {"unit", "m", "The scan's length unit", {"m", "mm", "cm", "ft"}},
+      {"columns", "", "What each column of a text is, in order: x,y,z,nx,ny,nz, '-' for others", {}},
       {"memory-mib", "256", "Points held in memory between the passes; more go to a scratch file", {}},
       {"scan-sha256", "", "Digest of the scan's bytes, when it is known already", {}}};
   return info;
@@ -100,15 +107,22 @@ ParameterTable ingest_parameters(IngestParams& params) {
 }
 
 void run_ingest(StageRun& run, const IngestParams& params) {
-  const std::unique_ptr<ScanReader> reader = open_scan(run.input("scan"));
+  const std::filesystem::path output = run.output("cloud");
+  const std::filesystem::path folder =
+      output.has_parent_path() ? output.parent_path() : std::filesystem::path(".");
+  const std::unique_ptr<ScanReader> reader =
+      open_scan(run.input("scan"), {parse_columns(run.option("columns")), folder});
+  for (const std::string& note : reader->notes()) {
+    run.note(note);
+  }
+  for (const std::string& warning : reader->warnings()) {
+    run.warn(warning);
+  }
   std::vector<Vec3> stations = reader->stations();
   if (!run.input("stations").empty()) {
     stations = read_stations(run.input("stations"));
   }
   std::future<std::string> digest = start_digest(run);
-  const std::filesystem::path output = run.output("cloud");
-  const std::filesystem::path folder =
-      output.has_parent_path() ? output.parent_path() : std::filesystem::path(".");
   const ScanSettings settings{run.option("unit"), run.option("up"), memory_bytes(run), folder,
                               run.input("scan").string()};
   Progress reading = run.progress("reading blocks", reader->blocks());

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kAbsent = static_cast<std::size_t>(-1);
 
-std::size_t find_property(const PlyElement& vertex, const std::string& name, const ScanFile& file) {
+std::size_t find_property(const PlyElement& vertex, const std::string& name, const ScanBytes& file) {
   std::size_t found = kAbsent;
   for (std::size_t i = 0; i < vertex.properties.size(); ++i) {
     const PlyProperty& property = vertex.properties[i];
@@ -29,7 +29,7 @@ std::size_t find_property(const PlyElement& vertex, const std::string& name, con
 
 }  // namespace
 
-PlyColumns find_columns(const PlyElement& vertex, const ScanFile& file) {
+PlyColumns find_columns(const PlyElement& vertex, const ScanBytes& file) {
   PlyColumns columns;
   constexpr std::array<const char*, 6> kNames{"x", "y", "z", "nx", "ny", "nz"};
   columns.normals = true;

@@ -18,30 +18,30 @@ constexpr std::size_t kLargestHeader = 1 << 20;
 
 struct TypeName {
   std::string_view name;
-  PlyType type;
+  ScalarType type;
 };
 
-constexpr std::array<TypeName, 16> kTypes{{{"char", PlyType::kInt8},
-                                           {"int8", PlyType::kInt8},
-                                           {"uchar", PlyType::kUint8},
-                                           {"uint8", PlyType::kUint8},
-                                           {"short", PlyType::kInt16},
-                                           {"int16", PlyType::kInt16},
-                                           {"ushort", PlyType::kUint16},
-                                           {"uint16", PlyType::kUint16},
-                                           {"int", PlyType::kInt32},
-                                           {"int32", PlyType::kInt32},
-                                           {"uint", PlyType::kUint32},
-                                           {"uint32", PlyType::kUint32},
-                                           {"float", PlyType::kFloat32},
-                                           {"float32", PlyType::kFloat32},
-                                           {"double", PlyType::kFloat64},
-                                           {"float64", PlyType::kFloat64}}};
+constexpr std::array<TypeName, 16> kTypes{{{"char", ScalarType::kInt8},
+                                           {"int8", ScalarType::kInt8},
+                                           {"uchar", ScalarType::kUint8},
+                                           {"uint8", ScalarType::kUint8},
+                                           {"short", ScalarType::kInt16},
+                                           {"int16", ScalarType::kInt16},
+                                           {"ushort", ScalarType::kUint16},
+                                           {"uint16", ScalarType::kUint16},
+                                           {"int", ScalarType::kInt32},
+                                           {"int32", ScalarType::kInt32},
+                                           {"uint", ScalarType::kUint32},
+                                           {"uint32", ScalarType::kUint32},
+                                           {"float", ScalarType::kFloat32},
+                                           {"float32", ScalarType::kFloat32},
+                                           {"double", ScalarType::kFloat64},
+                                           {"float64", ScalarType::kFloat64}}};
 
 /// Takes the header apart line by line; every error names the line.
 class HeaderParser {
  public:
-  explicit HeaderParser(const ScanFile& file) : file_(file) {}
+  explicit HeaderParser(const ScanBytes& file) : file_(file) {}
 
   /// Returns true at end_header.
   bool take(const std::string& text) {
@@ -84,7 +84,7 @@ class HeaderParser {
                      what, "export the scan again as PLY, ascii or binary");
   }
 
-  PlyType type_of(const std::string& name) const {
+  ScalarType type_of(const std::string& name) const {
     const auto* const found =
         std::find_if(kTypes.begin(), kTypes.end(), [&](const TypeName& type) { return type.name == name; });
     if (found == kTypes.end()) {
@@ -131,7 +131,7 @@ class HeaderParser {
       std::string count_type;
       words >> count_type >> type;
       property.count_type = type_of(count_type);
-      if (property.count_type == PlyType::kFloat32 || property.count_type == PlyType::kFloat64) {
+      if (property.count_type == ScalarType::kFloat32 || property.count_type == ScalarType::kFloat64) {
         wrong("the length of a list must be an integer");
       }
     }
@@ -142,17 +142,12 @@ class HeaderParser {
     header_.elements.back().properties.push_back(property);
   }
 
-  const ScanFile& file_;
+  const ScanBytes& file_;
   PlyHeader header_;
   bool has_format_ = false;
 };
 
 }  // namespace
-
-std::size_t bytes_of(PlyType type) {
-  constexpr std::array<std::size_t, 8> kBytes{1, 1, 2, 2, 4, 4, 4, 8};
-  return kBytes[static_cast<std::size_t>(type)];
-}
 
 bool PlyElement::has_list() const {
   return std::any_of(properties.begin(), properties.end(), [](const PlyProperty& p) { return p.is_list; });
@@ -165,17 +160,18 @@ std::uint64_t PlyElement::smallest_record() const {
                          });
 }
 
-PlyHeader read_ply_header(const ScanFile& file) {
+PlyHeader read_ply_header(const ScanBytes& file) {
   std::string text(static_cast<std::size_t>(std::min<std::uint64_t>(file.size(), kLargestHeader)), '\0');
   text.resize(file.read(0, text.data(), text.size()));
   HeaderParser parser(file);
+  const bool pairs = text.find('\n') == text.find('\r') + 1;  // else a '\n' behind a '\r' may be a point's
   std::size_t begin = 0;
   while (begin < text.size()) {
     const std::size_t end = std::min(text.find_first_of("\r\n", begin), text.size());
     if (end == text.size() && text.compare(begin, std::string::npos, "end_header") != 0) {
       break;  // a line cut in its middle says nothing
     }
-    const bool windows = text.compare(end, 2, "\r\n") == 0;
+    const bool windows = pairs && text.compare(end, 2, "\r\n") == 0;
     const bool done = parser.take(text.substr(begin, end - begin));
     begin = std::min(text.size(), end + (windows ? 2 : 1));
     if (done) {

@@ -5,20 +5,18 @@
 #include <string>
 #include <vector>
 
-#include "stages/ingest/scan_file.h"
+#include "stages/ingest/scalar_type.h"
+#include "stages/ingest/scan_bytes.h"
 
 namespace roomcut {
 
 enum class PlyFormat { kAscii, kLittleEndian, kBigEndian };
-enum class PlyType : std::uint8_t { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
-
-std::size_t bytes_of(PlyType type);
 
 struct PlyProperty {
   std::string name;
-  PlyType type = PlyType::kFloat32;
+  ScalarType type = ScalarType::kFloat32;
   bool is_list = false;
-  PlyType count_type = PlyType::kUint8;  ///< lists only
+  ScalarType count_type = ScalarType::kUint8;  ///< lists only
 };
 
 struct PlyElement {
@@ -40,6 +38,6 @@ struct PlyHeader {
 };
 
 /// Reads the header. Errors: kScanFormat (with the header line), kScanTruncated (no end_header).
-PlyHeader read_ply_header(const ScanFile& file);
+PlyHeader read_ply_header(const ScanBytes& file);
 
 }  // namespace roomcut

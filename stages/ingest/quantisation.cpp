@@ -10,9 +10,13 @@ namespace roomcut {
 
 namespace {
 
-constexpr std::array<double, 9> kSteps{0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0005, 0.0002, 0.0001};
+// Tenths of decimals, and what float32 keeps of grid coordinates that were then written as text or doubles.
+constexpr std::array<double, 15> kSteps{0.5,  0.25,  0.125, 0.1,   0.0625, 0.05,   0.03125, 0.02,
+                                        0.01, 0.005, 0.002, 0.001, 0.0005, 0.0002, 0.0001};
 constexpr std::size_t kSampled = 4096;
 constexpr std::size_t kFewestLevels = 20;  // an axis with fewer values may be a few flat surfaces
+constexpr double kCoarse_m = 0.1;          // a room is not many such steps wide
+constexpr std::size_t kFewestCoarseLevels = 7;
 constexpr double kShare = 0.99;
 
 /// Whether nearly all values lie on a grid of this step through the first, on many of its levels.
@@ -32,7 +36,7 @@ bool on_grid(const std::vector<double>& values, double step, double rounding) {
     }
   }
   return static_cast<double>(hits) >= kShare * static_cast<double>(values.size()) &&
-         levels.size() >= kFewestLevels;
+         levels.size() >= (step < kCoarse_m ? kFewestLevels : kFewestCoarseLevels);
 }
 
 }  // namespace

@@ -6,26 +6,26 @@
 #include <filesystem>
 #include <string>
 
+#include "stages/ingest/scan_bytes.h"
+
 namespace roomcut {
 
 /// A scan opened for reading at any place, by several threads at once. Nothing is held in memory.
-class ScanFile {
+class ScanFile : public ScanBytes {
  public:
   /// Errors: kScanMissing (no such file, a directory), kScanUnreadable (permission, not a regular file),
   /// kScanEmpty.
   explicit ScanFile(const std::filesystem::path& path);
-  ~ScanFile();
+  ~ScanFile() override;
   ScanFile(const ScanFile&) = delete;
   ScanFile& operator=(const ScanFile&) = delete;
 
-  std::uint64_t size() const { return size_; }
-  /// The name as messages give it.
-  std::string name() const { return path_.string(); }
+  std::uint64_t size() const override { return size_; }
+  std::string name() const override { return path_.string(); }
   const std::filesystem::path& path() const { return path_; }
 
-  /// Reads up to `bytes` bytes from `offset`; returns how many there were. Thread-safe.
   /// Errors: kScanUnreadable (I/O error), kScanTruncated (the file has shrunk meanwhile).
-  std::size_t read(std::uint64_t offset, void* out, std::size_t bytes) const;
+  std::size_t read(std::uint64_t offset, void* out, std::size_t bytes) const override;
 
  private:
   std::filesystem::path path_;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "common/geometry/line2.h"
@@ -15,8 +16,17 @@ namespace roomcut {
 struct ScanBlock {
   std::vector<double> x, y, z;
   std::vector<float> nx, ny, nz;  ///< normals; empty when the file has none
+  std::uint64_t no_returns = 0;   ///< points of the block that are none: beams that met nothing
   std::size_t size() const { return x.size(); }
   void resize(std::size_t points, bool normals);
+  /// Takes out points at exactly 0 0 0, which is how scanners write a beam without return, and counts them.
+  void drop_no_returns();
+};
+
+/// What `open_scan` may be told.
+struct ScanOptions {
+  std::vector<int> columns;  ///< what each column of a text is (parse_columns()); empty: to be found out
+  std::filesystem::path scratch_folder;  ///< for what has to be decoded first
 };
 
 /// A scan cut into blocks that can be read in any order and by several threads. Block order is file order.
@@ -32,13 +42,24 @@ class ScanReader {
   /// Distance between neighbouring representable coordinates at `magnitude`: 0 for text and doubles, the
   /// spacing of float32 numbers there otherwise [file units].
   virtual double resolution(double magnitude) const = 0;
-  /// Called with the number of points that all blocks gave: kScanTruncated when the file promised more.
+  /// Called with the number of points that all blocks gave: kScanTruncated when the file promised others.
   virtual void check_total(std::uint64_t /*points*/) const {}
+
+  /// What the user should know about the file although it could be read.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  void warn(const std::string& text) { warnings_.push_back(text); }
+  /// How the file was understood.
+  const std::vector<std::string>& notes() const { return notes_; }
+  void note(const std::string& text) { notes_.push_back(text); }
+
+ private:
+  std::vector<std::string> warnings_;
+  std::vector<std::string> notes_;
 };
 
-/// Finds out the format by the content, then by the name's ending. Errors: those of ScanFile, kScanFormat,
-/// kScanTruncated (more points promised than bytes are there; nothing is allocated on a promise),
-/// kScanNoPoints.
-std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& path);
+/// Finds out the format by the content. Errors: those of ScanFile, kScanFormat, kScanTruncated (the header
+/// promises more points than there are, or fewer; nothing is allocated on a promise), kScanNoPoints; of text,
+/// kScanColumns.
+std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& path, const ScanOptions& options = {});
 
 }  // namespace roomcut

@@ -5,10 +5,12 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include "common/errors/codes.h"
 #include "stages/ingest/scan_file.h"
+#include "stages/ingest/text_bytes.h"
 
 namespace roomcut {
 
@@ -87,13 +89,13 @@ std::vector<Vec3> stations_of_comments(const std::vector<std::string>& comments)
 }
 
 std::vector<Vec3> read_stations(const std::filesystem::path& path) {
-  const ScanFile file(path);
+  const TextBytes file(std::make_shared<const ScanFile>(path));
   if (file.size() > kLargestStationsFile) {
     throw StageError(errors::kScanFormat, file.name(), "too large for a list of scanner positions",
                      "give one position per line: x y z");
   }
-  std::string text(file.size(), '\0');
-  file.read(0, text.data(), text.size());
+  std::string text(static_cast<std::size_t>(file.size()), '\0');
+  text.resize(file.read(0, text.data(), text.size()));
   std::vector<Vec3> stations;
   std::size_t begin = 0;
   for (std::size_t line = 1; begin < text.size(); ++line) {

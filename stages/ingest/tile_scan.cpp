@@ -21,12 +21,19 @@ constexpr std::uint64_t kFewestPoints = 100;
 constexpr double kLargestFarShare = 0.1;  // more points beyond the window than this are no ghosts
 constexpr double kLargest_m = 2000;
 constexpr double kSmallest_m = 0.5;
+constexpr double kCoarsest_m = 0.11;  // steps of 6 cm still give walls, of 12 cm none
+
+void read_block(const ScanReader& reader, std::size_t index, ScanBlock& block) {
+  block.no_returns = 0;
+  reader.read(index, block);
+  block.drop_no_returns();
+}
 
 /// The first block that has a finite point: what frame and quantisation are judged by.
 ScanBlock first_useful_block(const ScanReader& reader) {
   ScanBlock block;
   for (std::size_t i = 0; i < reader.blocks(); ++i) {
-    reader.read(i, block);
+    read_block(reader, i, block);
     for (std::size_t k = 0; k < block.size(); ++k) {
       if (std::isfinite(block.x[k]) && std::isfinite(block.y[k]) && std::isfinite(block.z[k])) {
         return block;
@@ -60,7 +67,7 @@ class FirstError {
 };
 
 struct BlockCounts {
-  std::uint64_t points = 0, not_finite = 0, far = 0;
+  std::uint64_t points = 0, no_returns = 0, not_finite = 0, far = 0;
 };
 
 /// What one thread needs to sort blocks.
@@ -83,11 +90,12 @@ std::vector<BlockCounts> sort_blocks(const ScanReader& reader, const ScanFrame& 
         for (std::size_t i = range.begin(); i < range.end() && !error.before(i); ++i) {
           try {
             Sorting& own = per_thread.local();
-            reader.read(i, own.block);
+            read_block(reader, i, own.block);
             to_local(own.block, frame, scale, own.local);
             SortedBlock sorted;
             own.sorter.sort(own.local, sorted);
-            counts[i] = {own.block.size(), own.local.not_finite, own.local.far};
+            counts[i] = {own.block.size() + own.block.no_returns, own.block.no_returns, own.local.not_finite,
+                         own.local.far};
             store.put(i, std::move(sorted));
             if (advance) {
               advance(1);
@@ -106,7 +114,7 @@ void check_extent(const TiledScan& scan, std::uint64_t far, const ScanSettings& 
                   double tile_edge_m) {
   const IngestCounts& counts = scan.counts;
   const std::string hint = "check the unit (--unit m, cm, mm, ft) and the coordinates";
-  if (static_cast<double>(far) > kLargestFarShare * static_cast<double>(counts.read - counts.not_finite)) {
+  if (static_cast<double>(far) > kLargestFarShare * static_cast<double>(counts.kept + counts.ghosts)) {
     throw StageError(errors::kScanExtent, settings.name,
                      std::to_string(far) + " of " + std::to_string(counts.read) +
                          " points lie kilometres from the others, taken as " + settings.unit,
@@ -129,6 +137,16 @@ void check_extent(const TiledScan& scan, std::uint64_t far, const ScanSettings& 
     throw StageError(
         errors::kScanExtent, settings.name,
         "the points span " + std::to_string(std::lround(extent)) + " m, taken as " + settings.unit, hint);
+  }
+}
+
+/// Later stages would find no level or no wall, and not know why.
+void check_step(double step_m, const ScanSettings& settings) {
+  if (step_m > kCoarsest_m) {
+    throw StageError(errors::kScanTooCoarse, settings.name,
+                     "the coordinates are rounded to steps of " + std::to_string(std::lround(1000 * step_m)) +
+                         " mm, too coarse for a model: so far from the origin 32-bit numbers are no finer",
+                     "export the scan with 64-bit coordinates (double), or with an offset subtracted before");
   }
 }
 
@@ -167,6 +185,7 @@ TiledScan tile_scan(const ScanReader& reader, const ScanSettings& settings, cons
     const ScanBlock sample = first_useful_block(reader);
     scan.frame = choose_frame(sample, settings.unit, settings.up, params.voxel_edge_m);
     scan.step_m = quantisation_step(sample, scan.frame, reader);
+    check_step(scan.step_m, settings);
   }
   scan.store = std::make_unique<TileStore>(settings.scratch_folder, reader.blocks(), settings.memory_bytes,
                                            reader.has_normals());
@@ -176,22 +195,24 @@ TiledScan tile_scan(const ScanReader& reader, const ScanSettings& settings, cons
   std::uint64_t far = 0;
   for (const BlockCounts& block : blocks) {
     counts.read += block.points;
+    counts.no_returns += block.no_returns;
     counts.not_finite += block.not_finite;
     far += block.far;
   }
   reader.check_total(counts.read);
-  if (counts.read == counts.not_finite) {
+  const std::uint64_t real = counts.read - counts.no_returns - counts.not_finite;
+  if (real == 0) {
     throw StageError(errors::kScanNoPoints, settings.name,
-                     counts.read == 0
-                         ? "there is not one point in it"
-                         : "none of its " + std::to_string(counts.read) + " points has finite coordinates",
+                     counts.read == 0 ? "there is not one point in it"
+                                      : "none of its " + std::to_string(counts.read) +
+                                            " points has finite coordinates other than 0 0 0",
                      "export the scan again");
   }
   scan.tiles = without_ghosts(scan.store->index_tiles());
   for (const KeptTile& tile : scan.tiles) {
     counts.kept += tile.points;
   }
-  counts.ghosts = counts.read - counts.not_finite - counts.kept;
+  counts.ghosts = real - counts.kept;
   check_extent(scan, far, settings, scale.tile_edge_m());
   check_size(scan, settings);
   return scan;

@@ -7,12 +7,13 @@
 #include <utility>
 
 #include "common/cells/cell_complex.h"
+#include "stages/partition/dent.h"
 
 namespace roomcut {
 
 namespace {
 
-/// Rounding may turn a straight corner into a reflex one by this much [m].
+/// Rounding may bend a straight side inwards by this much [m].
 constexpr double kStraight_m = 1e-10;
 
 /// Whether the edge lies beyond its line's reach.
@@ -36,6 +37,25 @@ bool convex_without(const Subdivision& plan, std::int32_t h) {
   return a.x() * b.y() - a.y() * b.x() >= -kStraight_m * std::max(a.norm(), b.norm());
 }
 
+/// The corners that the two faces beside h have together, counter-clockwise.
+std::vector<Vec2> joined_corners(const Subdivision& plan, std::int32_t h) {
+  std::vector<Vec2> corners;
+  for (const std::int32_t side : {h, plan.twin(h)}) {
+    for (std::int32_t walk = plan.half_edges[side].next; walk != side; walk = plan.half_edges[walk].next) {
+      corners.push_back(plan.from(walk));
+    }
+  }
+  return corners;
+}
+
+/// Whether the two faces beside h are convex together. That a corner turns the right way says it only where
+/// its sides are long: a chord that ends in a vertex beside its line turns by up to kPlanSnap_m over its
+/// length, unseen at a side of some micrometres, until the far end of that side is dissolved too.
+bool convex_together(const Subdivision& plan, std::int32_t h) {
+  return convex_without(plan, h) && convex_without(plan, plan.twin(h)) &&
+         dent(joined_corners(plan, h)) <= kStraight_m;
+}
+
 }  // namespace
 
 void prune(Subdivision& plan, const std::vector<Reach>& reach, const std::vector<std::int32_t>& order) {
@@ -56,7 +76,7 @@ void prune(Subdivision& plan, const std::vector<Reach>& reach, const std::vector
   while (!queue.empty()) {
     const std::int32_t h = queue.top().second;
     queue.pop();
-    if (!beyond_reach(plan, reach, h) || !convex_without(plan, h) || !convex_without(plan, plan.twin(h))) {
+    if (!beyond_reach(plan, reach, h) || !convex_together(plan, h)) {
       continue;
     }
     const std::int32_t face = plan.half_edges[h].face;

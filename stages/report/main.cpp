@@ -17,6 +17,7 @@ void write_overview(StageRun& run, const std::vector<Picture>& pictures) {
   for (const Picture& picture : pictures) {
     const bool raster = picture.file.ends_with(".png");
     write_unsynced_file(folder / picture.file, raster ? picture.bytes : captioned(picture));
+    run.wrote(folder / picture.file);
   }
 }
 

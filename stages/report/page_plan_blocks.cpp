@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "common/artefact/h5_list.h"
+#include "common/artefact/h5_values.h"
 #include "common/cells/cells_io.h"
 #include "common/cells/evidence_io.h"
 #include "common/slices/slices_io.h"
@@ -29,8 +31,10 @@ WallCells read_wall_cells(const StageRun& run) {
   WallCells cells;
   if (run.has_input("hough")) {
     const H5Reader file(run.input("hough"), artefacts::kHough);
-    cells = {file.read<std::uint8_t>("cells/boundary"), file.read<float>("cells/theta"),
-             file.read<std::int32_t>("cells/line")};
+    cells.boundary = read_in_range<std::uint8_t>(file, "cells/boundary", {0}, 0, 1);
+    const std::uint64_t count = cells.boundary.size();
+    cells.theta = read_in_range<float>(file, "cells/theta", {count}, 0, 2 * std::numbers::pi);
+    cells.line = file.read<std::int32_t>("cells/line", {count});
   }
   return cells;
 }
@@ -94,14 +98,24 @@ void add_weights(const FaceWeights& weights, PageBlockBuilder& block) {
   block.add("cell_points", weights.cell_points);
 }
 
+std::vector<float> evidence_of(const H5Reader& file, const DatasetInfo& info) {
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  const std::string path = "cell/" + info.name;
+  if (info.type == "f32") {
+    return read_in_range<float>(file, path, info.shape, -kLargest, kLargest);
+  }
+  const auto values = read_in_range<double>(file, path, info.shape, -kLargest, kLargest);
+  return {values.begin(), values.end()};
+}
+
 /// Every dataset of data_terms.h5 with one number per cell, whatever it is called: the page shows them with
 /// the description that the file itself gives, and with the attribute `weight` where there is one.
 void add_evidence(const std::filesystem::path& path, const CellsFile& cells, PageBlockBuilder& block) {
   const H5Reader file = open_for_cells(path, artefacts::kDataTerms, cells);
-  block.add("wall_implied", file.read<float>("wall/implied"));
-  block.add("level_implied", file.read<float>("level/implied"));
+  block.add("wall_implied", read_in_range<float>(file, "wall/implied", {0}, 0, 1));
+  block.add("level_implied", read_in_range<float>(file, "level/implied", {0}, 0, 1));
   block.facts["evidence"] = Json::array();
-  for (const DatasetInfo& info : list_datasets(path, "cell")) {
+  for (const DatasetInfo& info : list_datasets(file, "cell")) {
     if (!info.type.starts_with('f') || info.shape != h5::Shape{cells.complex.cells()}) {
       continue;
     }
@@ -110,7 +124,7 @@ void add_evidence(const std::filesystem::path& path, const CellsFile& cells, Pag
       entry["weight"] = weight->second;
     }
     block.facts["evidence"].push_back(entry);
-    block.add("evidence_" + info.name, file.read<float>("cell/" + info.name));
+    block.add("evidence_" + info.name, evidence_of(file, info));
   }
 }
 
@@ -135,7 +149,7 @@ bool add_cells(const StageRun& run, const std::string& pass, std::vector<PageBlo
                            {"boundary_m3", labels.boundary_m3},
                            {"repair_flips", labels.repair_flips}};
   const Provenance provenance = read_provenance(run.input(pass + "labels"));
-  block.facts["graphcut"] = Json::parse(provenance.params_json, nullptr, false);
+  block.facts["graphcut"] = try_parse_json(provenance.params_json);
   blocks.push_back(block.finish());
   return true;
 }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <array>
 #include <filesystem>
+#include <string_view>
 
 #include "common/artefact/atomic_file.h"
 #include "common/artefact/h5.h"
+#include "common/openings/openings_io.h"
 #include "common/slices/slices_io.h"
+#include "common/wall_lines/wall_lines_io.h"
 #include "stages/report/page_blocks.h"
 
 namespace roomcut {
@@ -31,8 +34,18 @@ constexpr std::array kStages = {"ingest",
 constexpr std::array kLogMembers = {"stage",   "revision", "version", "wall_s", "cpu_s",   "peak_memory_mb",
                                     "threads", "params",   "chosen",  "counts", "warnings"};
 
+/// A document that a reader has taken; read again because the page shows all of it.
 Json parsed(const std::filesystem::path& path) {
-  return Json::parse(read_text_file(path), nullptr, false);
+  return try_parse_json(read_text_file(path));
+}
+
+/// Throws what the reader of the input finds wrong with it.
+void check_lines(const std::filesystem::path& path, bool openings) {
+  if (openings) {
+    read_openings(path);
+  } else {
+    read_wall_lines(path);
+  }
 }
 
 Json levels_of(const Slices& slices) {
@@ -78,6 +91,7 @@ void add_run_blocks(const StageRun& run, std::vector<PageBlock>& blocks) {
   PageBlockBuilder lines("lines");
   for (const char* input : {"detected", "lines", "refined", "openings"}) {
     if (run.has_input(input)) {
+      check_lines(run.input(input), std::string_view(input) == "openings");
       lines.facts[input] = parsed(run.input(input));
     }
   }

@@ -50,7 +50,8 @@ class Placer {
   void add_shaft(const SceneShaft& shaft, std::size_t index);
   std::optional<WallOpening> opening(const Polygon2& polygon, const Vec2& at, double width) const;
   void problem(const std::string& where, const std::string& what, const std::string& hint = "") {
-    problems_.push_back({errors::kSceneInvalid, scene_.name + ": " + where, what, hint});
+    problems_.push_back(
+        {errors::kSceneInvalid, scene_.name + ": " + where, what, hint.empty() ? kSceneRemedy : hint});
   }
 
   const Scene& scene_;

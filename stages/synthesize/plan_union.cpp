@@ -116,7 +116,8 @@ PlanUnion Uniter::unite() {
 }
 
 void Uniter::problem(const std::string& what, const std::string& hint) {
-  if (said_.insert(what).second) problems_.push_back({errors::kSceneInvalid, scene_.name, what, hint});
+  if (said_.insert(what).second)
+    problems_.push_back({errors::kSceneInvalid, scene_.name, what, hint.empty() ? kSceneRemedy : hint});
 }
 
 void Uniter::collect_heights() {

@@ -9,6 +9,10 @@
 
 namespace roomcut {
 
+/// The hint of a problem that has no closer one.
+inline constexpr const char* kSceneRemedy =
+    "correct the scene: schemas/scene.md says what each member may be";
+
 using Polygon2 = std::vector<Vec2>;  ///< corners, counter-clockwise, not closed [m]
 
 /// A room: the empty volume polygon × [floor, ceiling]. Walls are what lies between rooms.

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages/synthesize/scene_json.h"
 
-#include <fstream>
 #include <map>
 #include <numbers>
 #include <stdexcept>
 
+#include "common/artefact/atomic_file.h"
+#include "common/artefact/json.h"
 #include "stages/synthesize/families.h"
 #include "stages/synthesize/plan.h"
 #include "stages/synthesize/scene_reader.h"
@@ -247,16 +248,17 @@ Scene scene_from_json(const json& root, const std::string& where) {
 
 Scene read_scene(const std::filesystem::path& path) {
   const std::string name = path.filename().string();
-  std::ifstream file(path);
-  if (!std::filesystem::is_regular_file(path) || !file) {
-    throw StageError(errors::kSceneUnreadable, path.string(), "cannot be read",
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    throw StageError(errors::kSceneUnreadable, path.string(), "cannot be read, or is not a file",
                      "give a scene file (schemas/scene.md)");
   }
   json root;
   try {
-    root = json::parse(file);
-  } catch (const json::exception& error) {
-    throw StageError(errors::kSceneUnreadable, name, std::string("is not JSON: ") + error.what());
+    root = parse_json(read_text_file(path));
+  } catch (const BadJson& trouble) {
+    throw StageError(errors::kSceneUnreadable, name, std::string("is not JSON: ") + trouble.what(),
+                     "look at the place named: a missing or a trailing comma, an open bracket or quote?");
   }
   return scene_from_json(root, name);
 }

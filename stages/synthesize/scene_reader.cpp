@@ -79,7 +79,7 @@ SceneNode::~SceneNode() {
 }
 
 void SceneNode::problem(const std::string& what, const std::string& hint) {
-  problems_.push_back({errors::kSceneInvalid, path_, what, hint});
+  problems_.push_back({errors::kSceneInvalid, path_, what, hint.empty() ? kSceneRemedy : hint});
 }
 
 const json* SceneNode::member(const std::string& key) {

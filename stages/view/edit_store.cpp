@@ -25,13 +25,14 @@ namespace {
 
 }  // namespace
 
+bool EditStore::exists() const {
+  std::error_code error;
+  return fs::is_regular_file(fs::symlink_status(edit(), error));  // a link could lead out of the folder
+}
+
 std::optional<std::string> EditStore::read() const {
   const std::scoped_lock lock(mutex_);
-  std::error_code error;
-  if (!fs::is_regular_file(fs::symlink_status(edit(), error))) {  // a link could lead out of the folder
-    return std::nullopt;
-  }
-  return read_text_file(edit());
+  return exists() ? std::optional(read_text_file(edit())) : std::nullopt;
 }
 
 AcceptedEdit EditStore::accept(const std::string& text) {

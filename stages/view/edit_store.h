@@ -22,6 +22,8 @@ class EditStore {
 
   /// The edit in force; nullopt when there is none.
   std::optional<std::string> read() const;
+  /// Whether there is one. Does not wait for an edit that is being taken in.
+  bool exists() const;
   /// Takes `text` for edits/wall_lines.geojson when read_edited_wall_lines() has nothing against it: written
   /// beside, checked, the former edit kept as edits/old/wall_lines.<n>.geojson, moved into place. Throws
   /// StageError with all problems; then nothing is changed.

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages/view/server.h"
 
-#include <httplib.h>
-#include <sys/socket.h>
+#include <boost/system/system_error.hpp>
+#include <map>
 
 #include "common/artefact/json.h"
 #include "common/errors/codes.h"
+#include "stages/view/byte_range.h"
 #include "stages/view/edit_store.h"
+#include "stages/view/http_server.h"
 #include "stages/view/pipeline_run.h"
 #include "stages/view/request_rules.h"
 #include "stages/view/work_file.h"
@@ -15,63 +17,54 @@ namespace roomcut {
 
 namespace {
 
-std::vector<std::string> values(const httplib::Request& request, const char* name) {
-  std::vector<std::string> result;
-  for (std::size_t i = 0; i < request.get_header_value_count(name); ++i) {
-    result.push_back(request.get_header_value(name, i));
-  }
-  return result;
-}
-
-RequestHead head_of(const httplib::Request& request) {
-  return {request.method,
-          values(request, "Host"),
-          values(request, "Origin"),
-          values(request, kMarkHeader),
-          values(request, "Content-Length"),
-          values(request, "Transfer-Encoding"),
-          values(request, "Content-Encoding"),
-          values(request, "Content-Type")};
-}
-
 /// File names and log lines may hold any bytes; an answer is valid JSON all the same.
-void answer(httplib::Response& response, int status, const Json& body) {
-  response.status = status;
-  response.set_content(body.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n", "application/json");
-}
-
-void answer_error(httplib::Response& response, int status, const std::string& why) {
-  answer(response, status, {{"error", why}});
+HttpAnswer json_answer(int status, const Json& body) {
+  HttpAnswer answer;
+  answer.status = status;
+  answer.text = body.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return answer;
 }
 
 /// The errors of an edit: 422 when the edit is at fault, 500 when it cannot be written.
-void answer_problems(httplib::Response& response, const StageError& error) {
+HttpAnswer problems_answer(const StageError& error) {
   Json problems = Json::array();
   for (const Problem& problem : error.problems()) {
     std::string text = to_string(problem);
     text.erase(text.find_last_not_of('\n') + 1);
     problems.push_back(text);
   }
-  answer(response, error.exit_code() == ExitCode::kInput ? 422 : 500, {{"problems", problems}});
+  return json_answer(error.exit_code() == ExitCode::kInput ? 422 : 500, {{"problems", problems}});
 }
 
 Json text_or_null(const std::string& text) {
   return text.empty() ? Json(nullptr) : Json(text);
 }
 
-/// A file as it is. The library would pack what browsers take packed, as small as brotli can, which takes ten
-/// seconds for a page that goes no further than to this machine.
-void answer_file(httplib::Response& response, std::string bytes, const std::string& media_type) {
-  if (bytes.empty()) {
-    response.set_content("", media_type);
-    return;
+HttpAnswer nothing_here() {
+  return error_answer(404, "there is nothing here");
+}
+
+/// A file as it lies there, not packed, or the part of it that `range` asks for.
+HttpAnswer file_answer(OpenFile file, const char* media_type, const std::string& range) {
+  const std::uint64_t size = file.size().value_or(0);
+  const auto part = byte_range(range, size);
+  const std::string of_size = "/" + std::to_string(size);
+  if (!part) {
+    HttpAnswer answer = error_answer(416, "the file has " + std::to_string(size) + " bytes");
+    answer.content_range = "bytes *" + of_size;
+    return answer;
   }
-  const std::size_t size = bytes.size();
-  response.set_content_provider(
-      size, media_type,
-      [content = std::move(bytes)](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
-        return sink.write(content.data() + offset, length);
-      });
+  HttpAnswer answer;
+  answer.media_type = media_type;
+  answer.file = std::move(file);
+  answer.offset = part->offset;
+  answer.length = part->length;
+  if (!part->whole) {
+    answer.status = 206;
+    answer.content_range = "bytes " + std::to_string(part->offset) + "-" +
+                           std::to_string(part->offset + part->length - 1) + of_size;
+  }
+  return answer;
 }
 
 Json run_json(const RunProgress& run) {
@@ -82,142 +75,116 @@ Json run_json(const RunProgress& run) {
 
 }  // namespace
 
+HttpAnswer error_answer(int status, const std::string& why) {
+  return json_answer(status, {{"error", why}});
+}
+
 struct ViewServer::State {
   State(std::filesystem::path folder, std::vector<std::string> pipeline)
       : work(std::move(folder)), edits(work), run(std::move(pipeline)) {}
 
-  void protect();
-  void route_files();
-  void route_edit();
-  void route_run();
+  HttpAnswer handle(const HttpRequest& request);
+  HttpAnswer get_file(const HttpRequest& request) const;
+  HttpAnswer get_edit(const HttpRequest& request) const;
+  HttpAnswer put_edit(const HttpRequest& request);
+  HttpAnswer delete_edit(const HttpRequest& request);
+  HttpAnswer get_status(const HttpRequest& request) const;
+  HttpAnswer get_run(const HttpRequest& request) const;
+  HttpAnswer post_run(const HttpRequest& request);
 
   std::filesystem::path work;
   EditStore edits;
   PipelineRun run;
-  httplib::Server server;
   int port = 0;
+  HttpServer server{{[this](const RequestHead& head) { return refuse(head, port); },
+                     [this](const HttpRequest& request) { return handle(request); }}};
 };
 
-/// What holds for every request and every answer.
-void ViewServer::State::protect() {
-  // The library would set SO_REUSEPORT, which lets a second program share the port and steal requests.
-  server.set_socket_options([](socket_t socket) {
-    const int yes = 1;
-    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-  });
-  server.set_payload_max_length(kLargestBody);
-  server.set_keep_alive_max_count(1);  // a refused body is not read: the connection ends with the answer
-  server.set_default_headers({{"Cache-Control", "no-store"},
-                              {"X-Content-Type-Options", "nosniff"},
-                              {"Cross-Origin-Resource-Policy", "same-origin"},
-                              {"Content-Security-Policy", "frame-ancestors 'none'"},
-                              {"Referrer-Policy", "no-referrer"}});
-  server.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
-    const auto refusal = refuse(head_of(request), port);
-    if (!refusal) {
-      return httplib::Server::HandlerResponse::Unhandled;
+/// What a request is answered with; nothing is thrown.
+HttpAnswer ViewServer::State::handle(const HttpRequest& request) {
+  using Answer = HttpAnswer (State::*)(const HttpRequest&);
+  using ConstAnswer = HttpAnswer (State::*)(const HttpRequest&) const;
+  static const std::map<std::string, Answer> kChanges = {{"PUT /api/edit", &State::put_edit},
+                                                         {"DELETE /api/edit", &State::delete_edit},
+                                                         {"POST /api/run", &State::post_run}};
+  static const std::map<std::string, ConstAnswer> kReads = {
+      {"/api/edit", &State::get_edit}, {"/api/status", &State::get_status}, {"/api/run", &State::get_run}};
+  try {
+    if (request.head.method != "GET" && request.head.method != "HEAD") {
+      const auto change = kChanges.find(request.head.method + " " + request.path);
+      return change == kChanges.end() ? nothing_here() : (this->*change->second)(request);
     }
-    answer_error(response, refusal->status, refusal->why);
-    return httplib::Server::HandlerResponse::Handled;
-  });
-  server.set_error_handler([](const httplib::Request& /*request*/, httplib::Response& response) {
-    if (response.body.empty()) {
-      answer_error(response, response.status, response.status == 404 ? "there is nothing here" : "refused");
-    }
-  });
-  server.set_exception_handler(
-      [](const httplib::Request& /*request*/, httplib::Response& response, const std::exception_ptr& error) {
-        try {
-          std::rethrow_exception(error);
-        } catch (const StageError& known) {
-          answer_problems(response, known);
-        } catch (const std::exception& other) {
-          answer_error(response, 500, other.what());
-        }
-      });
+    const auto read = kReads.find(request.path);
+    return read == kReads.end() ? get_file(request) : (this->*read->second)(request);
+  } catch (const StageError& error) {
+    return problems_answer(error);
+  } catch (const std::exception& error) {
+    return error_answer(500, error.what());
+  }
 }
 
-void ViewServer::State::route_files() {
-  server.Get(R"(/(?!api/).*)", [this](const httplib::Request& request, httplib::Response& response) {
-    const auto file = served_file(request.path);
-    auto bytes = file ? read_work_file(work, *file) : std::nullopt;
-    if (bytes) {
-      answer_file(response, std::move(*bytes), std::string(file->media_type));
-    } else {
-      response.status = 404;
-    }
-  });
+HttpAnswer ViewServer::State::get_file(const HttpRequest& request) const {
+  const auto file = served_file(request.path);
+  auto opened = file ? open_work_file(work, *file) : std::nullopt;
+  return opened ? file_answer(std::move(*opened), file->media_type, request.range) : nothing_here();
 }
 
-void ViewServer::State::route_edit() {
-  server.Get("/api/edit", [this](const httplib::Request& /*request*/, httplib::Response& response) {
-    const auto edit = edits.read();
-    if (edit) {
-      response.set_content(*edit, "application/geo+json");
-    } else {
-      answer_error(response, 404, "there is no edit");
-    }
-  });
-  server.Put("/api/edit", [this](const httplib::Request& request, httplib::Response& response) {
-    const AcceptedEdit edit = edits.accept(request.body);
-    answer(response, 200, {{"accepted", true}, {"changes", edit.changes}, {"warnings", edit.warnings}});
-  });
-  server.Delete("/api/edit", [this](const httplib::Request& /*request*/, httplib::Response& response) {
-    const auto kept = edits.drop();
-    if (kept) {
-      answer(response, 200, {{"kept", kept->generic_string()}});
-    } else {
-      answer_error(response, 404, "there is no edit");
-    }
-  });
+HttpAnswer ViewServer::State::get_edit(const HttpRequest& /*request*/) const {
+  auto edit = edits.read();
+  if (!edit) {
+    return error_answer(404, "there is no edit");
+  }
+  HttpAnswer answer;
+  answer.media_type = "application/geo+json";
+  answer.text = std::move(*edit);
+  return answer;
 }
 
-void ViewServer::State::route_run() {
-  server.Get("/api/status", [this](const httplib::Request& /*request*/, httplib::Response& response) {
-    const RunProgress now = run.progress();
-    answer(response, 200,
-           {{"work", work.filename().string()},
-            {"running", now.running},
-            {"stage", text_or_null(now.stage)},
-            {"error", text_or_null(now.running ? "" : now.error)},
-            {"edit", edits.read().has_value()}});
-  });
-  server.Get("/api/run", [this](const httplib::Request& /*request*/, httplib::Response& response) {
-    answer(response, 200, run_json(run.progress()));
-  });
-  server.Post("/api/run", [this](const httplib::Request& /*request*/, httplib::Response& response) {
-    const bool started = run.start();
-    answer(response, started ? 202 : 409, run_json(run.progress()));
-  });
+HttpAnswer ViewServer::State::put_edit(const HttpRequest& request) {
+  const AcceptedEdit edit = edits.accept(request.body);
+  return json_answer(200, {{"accepted", true}, {"changes", edit.changes}, {"warnings", edit.warnings}});
+}
+
+HttpAnswer ViewServer::State::delete_edit(const HttpRequest& /*request*/) {
+  const auto kept = edits.drop();
+  return kept ? json_answer(200, {{"kept", kept->generic_string()}}) : error_answer(404, "there is no edit");
+}
+
+HttpAnswer ViewServer::State::get_status(const HttpRequest& /*request*/) const {
+  const RunProgress now = run.progress();
+  return json_answer(200, {{"work", work.filename().string()},
+                           {"running", now.running},
+                           {"stage", text_or_null(now.stage)},
+                           {"error", text_or_null(now.running ? "" : now.error)},
+                           {"edit", edits.exists()}});
+}
+
+HttpAnswer ViewServer::State::get_run(const HttpRequest& /*request*/) const {
+  return json_answer(200, run_json(run.progress()));
+}
+
+HttpAnswer ViewServer::State::post_run(const HttpRequest& /*request*/) {
+  const bool started = run.start();
+  return json_answer(started ? 202 : 409, run_json(run.progress()));
 }
 
 ViewServer::ViewServer(std::filesystem::path work, std::vector<std::string> pipeline)
-    : state_(std::make_unique<State>(std::move(work), std::move(pipeline))) {
-  state_->protect();
-  state_->route_files();
-  state_->route_edit();
-  state_->route_run();
-}
+    : state_(std::make_unique<State>(std::move(work), std::move(pipeline))) {}
 
 ViewServer::~ViewServer() = default;
 
 int ViewServer::bind(int port) {
-  constexpr const char* kLoopback = "127.0.0.1";
-  if (port == 0) {
-    port = state_->server.bind_to_any_port(kLoopback);
-  } else if (!state_->server.bind_to_port(kLoopback, port)) {
-    port = -1;
-  }
-  if (port <= 0) {
+  try {
+    state_->port = state_->server.bind(port);
+  } catch (const boost::system::system_error&) {
     throw StageError(errors::kUsage, "--port", "the port cannot be taken: another program has it",
                      "choose another one with PORT=, or none to get any that is free");
   }
-  state_->port = port;
-  return port;
+  return state_->port;
 }
 
 void ViewServer::serve() {
-  state_->server.listen_after_bind();
+  state_->server.serve();
 }
 
 void ViewServer::stop() {

@@ -9,55 +9,51 @@
 
 namespace roomcut {
 
-namespace {
-
-/// Owns a file descriptor.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() {
-    if (number_ >= 0) {
-      ::close(number_);
-    }
+OpenFile::~OpenFile() {
+  if (descriptor_ >= 0) {
+    ::close(descriptor_);
   }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int get() const { return number_; }
-
- private:
-  int number_;
-};
-
-std::optional<std::string> read_all(int file, std::size_t size) {
-  std::string bytes(size, '\0');
-  std::size_t done = 0;
-  while (done < size) {
-    const ssize_t count = ::read(file, bytes.data() + done, size - done);
-    if (count < 0 && errno == EINTR) {
-      continue;
-    }
-    if (count <= 0) {
-      return std::nullopt;
-    }
-    done += static_cast<std::size_t>(count);
-  }
-  return bytes;
 }
 
-}  // namespace
+OpenFile& OpenFile::operator=(OpenFile&& other) noexcept {
+  std::swap(descriptor_, other.descriptor_);
+  return *this;
+}
 
-std::optional<std::string> read_work_file(const std::filesystem::path& work, const ServedFile& file) {
-  constexpr int kFolder = O_RDONLY | O_DIRECTORY | O_CLOEXEC;
-  const Descriptor top(::open(work.c_str(), kFolder));
-  const Descriptor folder(
-      ::openat(top.get(), file.folder.empty() ? "." : file.folder.c_str(), kFolder | O_NOFOLLOW));
-  const Descriptor opened(
-      ::openat(folder.get(), file.name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+std::optional<std::uint64_t> OpenFile::size() const {
   struct stat status {};
-  if (opened.get() < 0 || ::fstat(opened.get(), &status) != 0 || !S_ISREG(status.st_mode)) {
+  if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) {
     return std::nullopt;
   }
-  return read_all(opened.get(), static_cast<std::size_t>(status.st_size));
+  return static_cast<std::uint64_t>(status.st_size);
+}
+
+bool OpenFile::read(std::uint64_t offset, char* bytes, std::size_t count) const {
+  std::size_t done = 0;
+  while (done < count) {
+    const ssize_t part = ::pread(descriptor_, bytes + done, count - done, static_cast<off_t>(offset + done));
+    if (part < 0 && errno == EINTR) {
+      continue;
+    }
+    if (part <= 0) {
+      return false;
+    }
+    done += static_cast<std::size_t>(part);
+  }
+  return true;
+}
+
+std::optional<OpenFile> open_work_file(const std::filesystem::path& work, const ServedFile& file) {
+  constexpr int kFolder = O_RDONLY | O_DIRECTORY | O_CLOEXEC;
+  const OpenFile top(::open(work.c_str(), kFolder));
+  const OpenFile folder(
+      ::openat(top.descriptor(), file.folder.empty() ? "." : file.folder.c_str(), kFolder | O_NOFOLLOW));
+  OpenFile opened(
+      ::openat(folder.descriptor(), file.name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  if (!opened.size()) {
+    return std::nullopt;
+  }
+  return opened;
 }
 
 }  // namespace roomcut

@@ -31,10 +31,13 @@ CASES = {
     "header_only": (ply([]), {"C06"}, 3),
     "truncated": (ply(floor_points(count=1000))[:-500], {"C05"}, 3),
     "claims_4e9": (ply(floor_points(count=1000), 4_000_000_000), {"C05"}, 3),
+    "promises_less": (ply(floor_points(count=1000), 500), {"C05"}, 3),
+    "float32_utm": (ply([(x + 500_000, y + 5_500_000, z) for x, y, z in floor_points()]), {"C10"}, 3),
     "all_nan": (ply([(math.nan,) * 3] * 1000), {"C06"}, 3),
     "one_point": (ply([(1.0, 2.0, 3.0)]), {"C07"}, 3),
     "one_plane": (ply(floor_points()), {"N01", "N02"}, 4),
     "no_vertical": (ply(floor_points() + floor_points(2.5)), {"N02"}, 4),
+    "one_line": (b" ".join(b"%.3f" % value for point in floor_points(count=1000) for value in point), {"C04"}, 3),
     "prose": (b"Dear surveyor,\nplease find the points attached.\nRegards\n", {"C04"}, 3),
 }
 
@@ -63,7 +66,7 @@ class BadScans(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             for name, (content, codes, exit_code) in CASES.items():
                 with self.subTest(case=name):
-                    path = os.path.join(folder, name + (".xyz" if name == "prose" else ".ply"))
+                    path = os.path.join(folder, name + (".xyz" if name in ("prose", "one_line") else ".ply"))
                     with open(path, "wb") as out:
                         out.write(content)
                     self.judge(path, codes, exit_code)

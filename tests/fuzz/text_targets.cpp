@@ -3,9 +3,9 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "common/artefact/stamp.h"
 #include "common/mesh/mesh_io.h"
 #include "common/params/params.h"
+#include "common/rerun/stamp.h"
 #include "stages/synthesize/scene_json.h"
 #include "tests/fuzz/target.h"
 

@@ -58,7 +58,10 @@ says "status: a changed scan, read another way" '^  ingest +stale: the scan chan
 make_scan 1 "$scan"
 mk run UP=z
 touch "$work/90_final/cells.h5"
-status_says final_weigh_faces 'stale: its input 90_final/cells.h5 was made anew'
+status_says final_weigh_faces 'fresh'
+cp "$work/50_partition/cells.h5" "$work/90_final/cells.h5"
+status_says final_partition 'stale: its output 90_final/cells.h5 was changed or damaged'
+says "… and those after it wait" '^  final_weigh_faces +fresh, runs only if final_partition comes out different$'
 mk run
 
 # edit-lines, diff-lines, drop-edit

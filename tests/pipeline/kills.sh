@@ -26,10 +26,11 @@ for stage in $ALL; do
   mk rerun-$stage
   length=$((($(date +%s%N) - begin) / 1000))
   bad=
+  cp "$work/stamps/$stage" "$place/stamp"
   for moment in $(seq "$moments"); do
     rm -f "$work/stamps/$stage"
     # Half of the moments with the files gone, so that a half-written one would be seen.
-    if [ $((moment % 2)) -eq 0 ]; then (cd "$work" && cut -d ' ' -f 4- "stamps/$stage.before" 2> /dev/null | while read -r f; do rm -f "$f"; done); fi
+    if [ $((moment % 2)) -eq 0 ]; then (cd "$work" && sed -n 's/^out [^ ]* [^ ]* //p' "$place/stamp" | while read -r f; do rm -f "$f"; done); fi
     setsid make -C "$SOURCE" "$stage" SCAN="$scan" WORK="$work" BUILD="$BUILD" CONFIG="$config" > "$output" 2>&1 &
     group=$!
     sleep "$(printf '0.%06d' $((RANDOM * 33 % length % 999999)))"

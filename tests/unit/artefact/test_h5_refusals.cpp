@@ -82,9 +82,9 @@ TEST(H5Refusals, survives_any_damaged_byte) {
     std::string damaged = bytes;
     damaged[at] = static_cast<char>(damaged[at] ^ 0x55);
     put_bytes(folder / "b.h5", damaged);
-    // Damage inside the numbers cannot be seen without reading them against the digest; anything else must be
-    // an error of ours and never a crash or another exception.
-    EXPECT_NO_FATAL_FAILURE(code_of([&] { H5Reader(folder / "b.h5", kType).read<double>("v"); })) << at;
+    std::vector<double> values(1000, 1.5);
+    const std::string code = code_of([&] { values = H5Reader(folder / "b.h5", kType).read<double>("v"); });
+    EXPECT_TRUE(code != "" || values == std::vector<double>(1000, 1.5)) << "believed at byte " << at;
   }
 }
 

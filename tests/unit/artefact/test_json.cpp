@@ -35,6 +35,54 @@ TEST(Json, keeps_provenance_and_frame) {
   EXPECT_THROW(provenance_from_json(Json::object()), Json::exception);
 }
 
+TEST(ParseJson, refuses_what_is_nested_too_deeply_in_little_time_and_stack) {
+  const auto nested = [](int depth) { return std::string(depth, '[') + std::string(depth, ']'); };
+  EXPECT_NO_THROW(parse_json(nested(kDeepestJson)));
+  EXPECT_THROW(parse_json(nested(kDeepestJson + 1)), BadJson);
+  EXPECT_THROW(parse_json(nested(10'000'000)), BadJson);
+  EXPECT_NO_THROW(parse_json("{\"a\": \"" + std::string(1000, '[') + "\\\"[[\"}")) << "brackets in texts";
+  std::string objects;
+  for (int i = 0; i < 100'000; ++i) objects += R"({"a":)";
+  EXPECT_THROW(parse_json(objects), BadJson);
+  EXPECT_TRUE(try_parse_json(objects).is_null());
+}
+
+TEST(ParseJson, refuses_numbers_and_texts_that_a_program_cannot_hold) {
+  EXPECT_THROW(parse_json("[1e999]"), BadJson);
+  EXPECT_THROW(parse_json("[\"\xff\"]"), BadJson);
+  EXPECT_THROW(parse_json("[NaN]"), BadJson);
+  EXPECT_FALSE(is_utf8("\xc3"));
+  EXPECT_TRUE(is_utf8("größer"));
+}
+
+TEST(ParseJson, numbers_are_asked_for_with_their_range) {
+  EXPECT_EQ(number_in(Json(2.5), 0, 3), 2.5);
+  EXPECT_EQ(whole_number_in(Json(-3), -3, 3), -3);
+  EXPECT_THROW(number_in(Json(3.5), 0, 3), BadJson);
+  EXPECT_THROW(number_in(Json("1"), 0, 3), BadJson);
+  EXPECT_THROW(whole_number_in(Json(2.5), 0, 3), BadJson);
+  EXPECT_THROW(whole_number_in(Json(std::uint64_t{1} << 63), 0, 3), BadJson);
+  EXPECT_THROW(local_metres(Json(1e308)), BadJson);
+}
+
+TEST(JsonArtefact, with_a_changed_number_is_refused_with_the_way_to_make_it_again) {
+  const TemporaryFolder folder;
+  const auto path = folder / "summary.json";
+  write_json_artefact(path, artefacts::kSummary, {}, {}, {{"area_m2", 12.5}});
+  std::string text = bytes_of(path);
+  text.replace(text.find("12.5"), 4, "13.5");
+  put_bytes(path, text);
+  std::string message;
+  EXPECT_EQ(code_of([&] { read_json_artefact(path, artefacts::kSummary); }, &message), "A02");
+  EXPECT_NE(message.find("digest"), std::string::npos) << message;
+  EXPECT_NE(message.find("make run"), std::string::npos) << message;
+  EXPECT_EQ(code_of([&] { verified_plain_artefact(path); }), "A02");
+  put_bytes(path, text.replace(text.find("13.5"), 4, "1e999"));
+  EXPECT_EQ(code_of([&] { read_json_artefact(path, artefacts::kSummary); }), "A02");
+  EXPECT_EQ(code_of([&] { read_provenance(path); }, &message), "A02");
+  EXPECT_EQ(message.find("json.exception"), std::string::npos) << message;
+}
+
 TEST(JsonArtefact, returns_what_was_written_and_keeps_the_time_for_an_equal_payload) {
   const TemporaryFolder folder;
   const auto path = folder / "summary.json";

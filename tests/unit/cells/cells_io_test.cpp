@@ -107,6 +107,36 @@ TEST_F(CellsIo, ACellComplexComesBackAsItWas) {
   EXPECT_TRUE(complex.lines[0].layers.empty());
 }
 
+TEST_F(CellsIo, NumbersThatNoBuildingHasAndTextsThatAreNoneAreDamage) {
+  const auto code = [&](const std::function<void(CellComplex&)>& spoil) {
+    CellComplex wrong = cells_.complex;
+    spoil(wrong);
+    write_cells(folder_ / "wrong.h5", wrong, provenance_);
+    return code_of([&] { read_cells(folder_ / "wrong.h5"); });
+  };
+  EXPECT_EQ(code([](CellComplex&) {}), "none");
+  EXPECT_EQ(code([](CellComplex& c) { c.lines[0].wall_id = "w\xff"; }), "A02");
+  EXPECT_EQ(code([](CellComplex& c) { c.lines[0].t1 = 1e308; }), "A02");
+  EXPECT_EQ(code([](CellComplex& c) { c.levels.back() = 1e300; }), "A02");
+  EXPECT_EQ(code([](CellComplex& c) { c.face_vertex[0] = 1'000'000; }), "A02");
+  EXPECT_EQ(code([](CellComplex& c) { c.face_offset[1] = -5; }), "A02");
+}
+
+TEST_F(CellsIo, OneChangedHeightIsNotBelieved) {
+  std::string bytes = [&] {
+    std::ifstream file(folder_ / "cells.h5", std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  }();
+  const double height = cells_.complex.levels.back();
+  const std::string held(reinterpret_cast<const char*>(&height), sizeof(height));
+  const double raised = height + 1;
+  const std::size_t at = bytes.find(held);
+  ASSERT_NE(at, std::string::npos);
+  bytes.replace(at, sizeof(raised), reinterpret_cast<const char*>(&raised), sizeof(raised));
+  std::ofstream(folder_ / "raised.h5", std::ios::binary) << bytes;
+  EXPECT_EQ(code_of([&] { read_cells(folder_ / "raised.h5"); }), "A02");
+}
+
 TEST_F(CellsIo, EqualContentGivesEqualBytesAndIsNotNews) {
   const auto bytes = [&](const char* name) {
     std::ifstream file(folder_ / name, std::ios::binary);

@@ -5,7 +5,10 @@
 #include "common/artefact/json.h"
 #include "common/cli/run_stage.h"
 #include "common/errors/codes.h"
+#include "common/rerun/stamp.h"
+#include "common/rerun/work_digests.h"
 #include "tests/unit/cli/sample_stage.h"
+#include "tests/unit/rerun/work_folder.h"
 
 namespace roomcut::test {
 
@@ -137,6 +140,7 @@ TEST(RunStage, prints_what_was_chosen_counted_and_warned_of_and_logs_it) {
     run.count("cells", 320);
     run.count("area", 12.34567, "m^2");
     run.count("nothing", std::numeric_limits<double>::quiet_NaN());
+    run.note("x is column 2");
     run.warn("first");
     run.warn("second");
   };
@@ -153,6 +157,8 @@ TEST(RunStage, prints_what_was_chosen_counted_and_warned_of_and_logs_it) {
   EXPECT_EQ(log["params"]["width_m"], 0.5);
   EXPECT_EQ(log["chosen"][0]["why"], "twice the noise");
   EXPECT_EQ(log["counts"][1]["value"], 12.34567);
+  EXPECT_TRUE(has(o.err, "slice: x is column 2")) << o.err;
+  EXPECT_EQ(log["notes"], Json::array({"x is column 2"}));
   EXPECT_EQ(log["warnings"], Json({"first", "second"}));
   EXPECT_GT(log["peak_memory_mb"], 1.0);
   EXPECT_EQ(run_sample({"--work", folder.path(), "-q"}, body).err, "");
@@ -199,6 +205,79 @@ TEST(RunStage, a_name_of_a_file_in_any_bytes_does_not_spoil_the_log) {
   const TemporaryFolder folder;
   run_sample({"--work", folder.path(), "--cloud", "\xff\xfe.h5", "-q"});
   EXPECT_FALSE(Json::parse(bytes_of(folder / "logs/slice.json"), nullptr, false).is_discarded());
+}
+
+/// The arguments that Make gives; the sample's work folder is the current one.
+std::vector<std::string> for_make(const std::string& more = "-q") {
+  return {"--work", ".", "-q", "--stamp", "stamps/slice", "--reads", "edits/e.txt 10_ingest/cloud.h5", more};
+}
+
+void write_slices(StageRun& run, double value) {
+  H5Writer writer(run.output("slices"), artefacts::kSlices, run.provenance(), {});
+  writer.write<double>("v", {value}, "m", "values");
+  writer.commit();
+}
+
+TEST(RunStage, leaves_a_stamp_with_the_digests_of_what_it_read_and_wrote) {
+  const WorkFolder folder;
+  write_cloud("10_ingest/cloud.h5");
+  const auto body = [](StageRun& run, double) {
+    write_slices(run, 1);
+    put_bytes("more.txt", "more");
+    run.wrote("more.txt");
+  };
+  ASSERT_EQ(run_sample(for_make(), body).exit_code, 0);
+  const StampFile file = read_stamp("stamps/slice");
+  ASSERT_EQ(file.state, StampState::kWhole);
+  ASSERT_EQ(file.stamp.inputs.size(), 2U);
+  EXPECT_EQ(file.stamp.inputs[0].sha256, kNoFile) << "there is no edit";
+  EXPECT_EQ(file.stamp.inputs[1].sha256, inspect_artefact("10_ingest/cloud.h5").payload_sha256);
+  ASSERT_EQ(file.stamp.outputs.size(), 2U);
+  EXPECT_EQ(file.stamp.outputs[0].sha256, inspect_artefact("20_slice/slices.h5").payload_sha256);
+  EXPECT_EQ(file.stamp.outputs[0].content, sha256_of_file("20_slice/slices.h5"));
+  EXPECT_EQ(file.stamp.outputs[1].name, "more.txt");
+  EXPECT_EQ(file.stamp.outputs[1].sha256, sha256_hex("more"));
+}
+
+TEST(RunStage, an_edit_that_is_saved_while_the_stage_runs_makes_it_stale) {
+  const WorkFolder folder;
+  std::filesystem::create_directory("edits");
+  put_bytes("edits/e.txt", "before");
+  write_cloud("10_ingest/cloud.h5");
+  run_sample(for_make(), [](StageRun& run, double) {
+    put_bytes("edits/e.txt", "later!");
+    write_slices(run, 1);
+  });
+  EXPECT_EQ(read_stamp("stamps/slice").stamp.inputs[0].sha256, sha256_hex("before"));
+}
+
+TEST(RunStage, if_changed_runs_only_when_an_input_differs_and_says_when_it_begins) {
+  const WorkFolder folder;
+  write_cloud("10_ingest/cloud.h5", 1);
+  int runs = 0;
+  const auto body = [&](StageRun& run, double) {
+    ++runs;
+    write_slices(run, 1);
+  };
+  std::vector<std::string> arguments = for_make("--if-changed");
+  arguments.insert(arguments.end(), {"--announce", "@stage 1 1 slice"});
+  EXPECT_EQ(run_sample(arguments, body).out, "@stage 1 1 slice\n");
+  EXPECT_EQ(runs, 1) << "there was no stamp";
+  std::filesystem::remove("logs/slice.json");
+  EXPECT_EQ(run_sample(arguments, body).out, "");
+  EXPECT_EQ(runs, 1);
+  EXPECT_FALSE(std::filesystem::exists("logs/slice.json")) << "the log of the run that made the files stays";
+  write_cloud("10_ingest/cloud.h5", 2);
+  run_sample(arguments, body);
+  EXPECT_EQ(runs, 2);
+}
+
+TEST(RunStage, that_fails_leaves_no_stamp) {
+  const WorkFolder folder;
+  write_cloud("10_ingest/cloud.h5");
+  run_sample(for_make(), [](StageRun& run, double) { write_slices(run, 1); });
+  run_sample(for_make(), [](StageRun&, double) { throw StageError(errors::kNoLevels, "", "no"); });
+  EXPECT_EQ(read_stamp("stamps/slice").state, StampState::kUnfinished);
 }
 
 TEST(RunStage, limits_the_threads) {

@@ -79,4 +79,13 @@ std::string bytes_of_value(T value, bool big_endian = false) {
   return big_endian ? std::string(bytes.rbegin(), bytes.rend()) : bytes;
 }
 
+/// ASCII text as UTF-16 with a byte-order mark.
+inline std::string utf16(const std::string& text, bool big_endian) {
+  std::string bytes = big_endian ? "\xfe\xff" : "\xff\xfe";
+  for (const char c : text) {
+    bytes += big_endian ? std::string{'\0', c} : std::string{c, '\0'};
+  }
+  return bytes;
+}
+
 }  // namespace roomcut::testing

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
 #include "scan_files.h"
 
 namespace roomcut::testing {
@@ -184,6 +186,77 @@ TEST_F(ScanPly, refuses_four_billion_promised_points_at_once) {
   EXPECT_EQ(code_of_scan(file("lie4.ply", header("binary_little_endian", huge) +
                                               three_points<float>(false).substr(0, 12) + "\xff\xff\xff\xff")),
             "C05");
+}
+
+TEST_F(ScanPly, refuses_a_file_that_holds_more_points_than_promised_and_names_both_counts) {
+  const std::string lists = vertex(1, kFloatVertex + "property list uchar int seen_by\n");
+  std::string ragged = header("binary_little_endian", lists);
+  for (int i = 0; i < 3; ++i) {
+    ragged += bytes_of_value(1.0F) + bytes_of_value(2.0F) + bytes_of_value(3.0F) + '\0';
+  }
+  const std::string empty_faces = vertex(1) + "element face 0\nproperty list uchar int i\n";
+  for (const std::string& bytes :
+       {header("ascii", vertex(1)) + "1 2 3\n4 5 6\n7 8 9\n",
+        header("ascii", vertex(1)) + "1 2 3\r4 5 6\r7 8 9",
+        header("ascii", empty_faces) + "1 2 3\n\n4 5 6\n7 8 9",
+        header("binary_little_endian", vertex(1)) + three_points<float>(false),
+        header("binary_big_endian", empty_faces) + three_points<float>(true), ragged}) {
+    std::string text;
+    EXPECT_EQ(code_of_scan(file("more.ply", bytes), &text), "C05") << bytes;
+    EXPECT_NE(text.find("promises 1 elements 'vertex', the file holds 3"), std::string::npos) << text;
+    EXPECT_NE(text.find("hint: "), std::string::npos) << text;
+  }
+}
+
+TEST_F(ScanPly, refuses_more_points_than_promised_before_other_elements) {
+  const std::string ids = vertex(2) + "element id 1\nproperty int n\n";
+  EXPECT_EQ(code_of_scan(file("b.ply", header("binary_little_endian", ids) + three_points<float>(false) +
+                                           bytes_of_value(std::int32_t{1}))),
+            "C05");
+  EXPECT_EQ(code_of_scan(file("a.ply", header("ascii", ids) + "1 2 3\n4 5 6\n7 8 9\n1\n2 2 2\n")), "C05");
+}
+
+TEST_F(ScanPly, warns_of_stray_bytes_behind_the_points_and_reads_what_is_promised) {
+  for (const std::string& bytes :
+       {header("ascii", vertex(3)) + "1 2 3\n4 5 6\n7 8 9\nmade by hand\n",
+        header("binary_little_endian", vertex(3)) + three_points<float>(false) + "\n"}) {
+    const auto reader = open_scan(file("stray.ply", bytes));
+    expect_one_to_nine(read_all(*reader));
+    EXPECT_EQ(reader->warnings().size(), 1U) << bytes;
+  }
+  const std::string faces = vertex(3) + "element face 1\nproperty list uchar int i\n";
+  for (const std::string& bytes :
+       {header("ascii", vertex(3)) + "1 2 3\n4 5 6\n7 8 9\n\n \n",
+        header("ascii", faces) + "1 2 3\n4 5 6\n7 8 9\n3 0 1 2\n",
+        header("binary_little_endian", faces) + three_points<float>(false) + std::string("\0", 1)}) {
+    const auto reader = open_scan(file("clean.ply", bytes));
+    expect_one_to_nine(read_all(*reader));
+    EXPECT_TRUE(reader->warnings().empty()) << reader->warnings().front();
+  }
+}
+
+TEST_F(ScanPly, reads_ascii_whose_lines_end_with_carriage_returns) {
+  std::string bytes = header("ascii", vertex(3)) + "1 2 3\n4 5 6\n7 8 9\n";
+  std::replace(bytes.begin(), bytes.end(), '\n', '\r');
+  expect_one_to_nine(read_all(*open_scan(file("cr.ply", bytes))));
+}
+
+TEST_F(ScanPly, reads_binary_points_behind_a_header_of_carriage_returns_whatever_their_first_byte) {
+  std::string head =
+      header("binary_little_endian", vertex(1, "property char x\nproperty char y\nproperty char z\n"));
+  std::replace(head.begin(), head.end(), '\n', '\r');
+  const ScanBlock block = read_all(*open_scan(file("crb.ply", head + "\n\x02\x03")));
+  EXPECT_EQ(block.x, (std::vector<double>{10}));
+  EXPECT_EQ(block.z, (std::vector<double>{3}));
+}
+
+TEST_F(ScanPly, reads_ascii_saved_as_utf16_and_refuses_binary_saved_so) {
+  const std::string text = header("ascii", vertex(3)) + "1 2 3\n4 5 6\n7 8 9\n";
+  expect_one_to_nine(read_all(*open_scan(file("w.ply", utf16(text, true)))));
+  expect_one_to_nine(read_all(*open_scan(file("m.ply", "\xef\xbb\xbf" + text))));
+  EXPECT_EQ(
+      code_of_scan(file("x.ply", utf16(header("binary_little_endian", vertex(1)) + "123456789012", false))),
+      "C04");
 }
 
 TEST_F(ScanPly, refuses_a_header_without_points) {

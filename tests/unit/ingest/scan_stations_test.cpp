@@ -36,6 +36,9 @@ TEST_F(ScanStations, come_from_a_text_file) {
   const std::vector<Vec3> stations = read_stations(file("s.txt", "# x y z\n1 2 3\n\n4,5,6 first floor\r\n"));
   ASSERT_EQ(stations.size(), 2U);
   EXPECT_EQ(stations[1], Vec3(4, 5, 6));
+  for (const std::string& bytes : {utf16("1 2 3\r\n4 5 6\r\n", false), std::string("1 2 3\r4 5 6\r")}) {
+    EXPECT_EQ(read_stations(file("w.txt", bytes)), (std::vector<Vec3>{Vec3(1, 2, 3), Vec3(4, 5, 6)}));
+  }
   std::string text;
   EXPECT_EQ(code_of([&] { read_stations(file("b.txt", "1 2 3\n1 2\n")); }, &text), "C08");
   EXPECT_NE(text.find("line 2"), std::string::npos) << text;

@@ -26,6 +26,56 @@ TEST_F(ScanText, reads_every_separator_with_and_without_a_last_line_break) {
   }
 }
 
+TEST_F(ScanText, reads_utf16_of_either_byte_order_with_any_line_ends) {
+  for (const std::string text :
+       {"x,y,z\n1,2.5,.3\n4,-5,6\n", "# a\r\n1 2.5 .3\r\n4 -5 6", "1;2.5;.3\r4;-5;6\r"}) {
+    for (const bool big : {false, true}) {
+      const std::string wide = utf16(text, big);
+      expect_one_to_six(read_all(*open_scan(file("w.txt", wide))), text);
+      expect_one_to_six(read_all(*open_scan(file("bare.txt", wide.substr(2)))), "no mark: " + text);
+    }
+  }
+  std::string names = utf16("x y z h\n1 2.5 .3 0\n4 -5 6 0\n", false);
+  names[7 * 2] = '\xf6';  // an umlaut instead of the h
+  names[7 * 2 + 1] = '\x01';
+  expect_one_to_six(read_all(*open_scan(file("u.txt", names))), "not ASCII");
+}
+
+TEST_F(ScanText, reads_lines_that_end_with_carriage_returns) {
+  expect_one_to_six(read_all(*open_scan(file("cr.xyz", "1 2.5 0.3\r4 -5 6\r"))), "CR");
+  expect_one_to_six(read_all(*open_scan(file("crh.csv", "x,y,z\r1,2.5,.3\r4,-5,6"))), "CR with names");
+  expect_one_to_six(read_all(*open_scan(file("mixed.xyz", "# one\n1 2.5 0.3\r4 -5 6\r"))), "mixed");
+  expect_one_to_six(read_all(*open_scan(file("crcrlf.xyz", "1 2.5 0.3\r\r\n4 -5 6\r\r\n"))), "CR CR LF");
+  std::string text;
+  EXPECT_EQ(code_of_scan(file("bad.xyz", "1 2 3\r4 5 6\r7 x 9\r"), &text), "C08");
+  EXPECT_NE(text.find("line 3"), std::string::npos) << text;
+}
+
+TEST_F(ScanText, reads_utf16_and_carriage_returns_over_many_blocks) {
+  std::string text;
+  constexpr int kLines = 200'000;
+  for (int i = 0; i < kLines; ++i) {
+    text += std::to_string(i) + " 1.25 -" + std::to_string(i % 11) + "\r";
+  }
+  const auto reader = open_scan(file("many.xyz", utf16(text, true)));
+  EXPECT_GT(reader->blocks(), 1U);
+  const ScanBlock block = read_all(*reader);
+  ASSERT_EQ(block.size(), static_cast<std::size_t>(kLines));
+  EXPECT_EQ(block.x.back(), kLines - 1);
+}
+
+TEST_F(ScanText, says_when_all_points_stand_on_one_line) {
+  std::string numbers;
+  for (int i = 0; i < 100; ++i) {
+    numbers += std::to_string(i) + ".5 ";
+  }
+  for (const std::string& text : {numbers, numbers + "\n", "x y z " + numbers}) {
+    std::string message;
+    EXPECT_EQ(code_of_scan(file("line.xyz", text), &message), "C04");
+    EXPECT_NE(message.find("one line"), std::string::npos) << message;
+  }
+}
+
 TEST_F(ScanText, follows_a_line_of_names) {
   for (const std::string text :
        {"x,y,z\n1,2.5,.3\n4,-5,6\n", "\"Z\";\"Y\";\"X\"\n.3;2.5;1\n6;-5;4\n",
@@ -51,6 +101,7 @@ TEST_F(ScanText, accepts_the_counts_of_pts_files) {
   expect_one_to_six(read_all(*open_scan(file("b.pts", "1\r\n1 2.5 .3\r\n1\r\n4 -5 6\r\n"))), "two counts");
   EXPECT_EQ(code_of_scan(file("c.pts", "3\n1 2.5 .3\n4 -5 6\n")), "C05");
   EXPECT_EQ(code_of_scan(file("d.pts", "4000000000\n1 2.5 .3\n4 -5 6\n")), "C05");
+  EXPECT_EQ(code_of_scan(file("e.pts", "1\n1 2.5 .3\n4 -5 6\n")), "C05") << "more than promised";
 }
 
 TEST_F(ScanText, skips_comments_and_blank_lines_anywhere) {
@@ -93,19 +144,16 @@ TEST_F(ScanText, names_the_line_that_is_no_point_in_any_block) {
   EXPECT_NE(message.find("1.25 oops 3"), std::string::npos) << message;
   EXPECT_EQ(code_of_scan(file("short.xyz", "1 2 3\n1 2\n")), "C08");
   EXPECT_EQ(code_of_scan(file("glued.xyz", "1 2 3\n1 2 3x\n")), "C08");
-  EXPECT_EQ(code_of_scan(file("cut.csv", "1,2,3\n4,5,")), "C08");
+  EXPECT_EQ(code_of_scan(file("cut.csv", "1,2,3\n4,5")), "C08");
 }
 
 TEST_F(ScanText, refuses_what_is_no_point_cloud) {
   EXPECT_EQ(code_of_scan(file("letter.txt", "Dear Sir or Madam,\nplease find enclosed\nnothing.\n")), "C04");
   EXPECT_EQ(code_of_scan(file("two.txt", "1 2\n3 4\n")), "C04");
-  EXPECT_EQ(code_of_scan(file("comma.csv", "1,5;2,25;3,0\n1,5;2,25;3,0\n")), "C04");
-  EXPECT_EQ(code_of_scan(file("comma.txt", "1,5 2,25 3,0\n")), "C04");
   EXPECT_EQ(code_of_scan(file("grid.asc", "ncols 4\nnrows 4\nxllcorner 0\n1 2 3 4\n")), "C04");
   EXPECT_EQ(code_of_scan(file("scan.ptx", "2\n2\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n")), "C04");
   EXPECT_EQ(code_of_scan(file("binary.dat", std::string("ab\0cd", 5))), "C04");
   EXPECT_EQ(code_of_scan(file("scan.las", "LASF and more")), "C04");
-  EXPECT_EQ(code_of_scan(file("scan.pcd", "# .PCD v0.7\nVERSION 0.7\n")), "C04");
 }
 
 TEST_F(ScanText, refuses_a_header_without_points) {

@@ -192,6 +192,20 @@ TEST(TileScan, drops_and_counts_bad_points) {
   expect_same(cloud, make_cloud(MemoryScan(room.points())));
 }
 
+TEST(TileScan, drops_beams_without_return_also_when_they_are_half_of_a_scan_far_from_the_origin) {
+  std::vector<Vec3> points;
+  for (const Vec3& point : Room().points()) {
+    points.push_back(point + Vec3(836'000, 818'000, 0));
+    points.emplace_back(0, 0, 0);
+  }
+  const MadeCloud cloud = make_cloud(MemoryScan(points));
+  EXPECT_EQ(cloud.counts.read, points.size());
+  EXPECT_EQ(cloud.counts.no_returns, points.size() / 2);
+  EXPECT_EQ(cloud.counts.kept, points.size() / 2);
+  EXPECT_EQ(cloud.counts.ghosts, 0U);
+  EXPECT_EQ(code_of([] { make_cloud(MemoryScan(std::vector<Vec3>(500, Vec3(0, 0, 0)))); }), "C06");
+}
+
 TEST(TileScan, is_not_harmed_by_duplicate_points) {
   Room room;
   std::vector<Vec3> points = room.points();
@@ -243,6 +257,32 @@ TEST(TileScan, refuses_extents_that_only_a_wrong_unit_explains) {
     std::string text;
     EXPECT_EQ(code_of([&] { make_cloud(MemoryScan(wrong)); }, &text), "C09");
     EXPECT_NE(text.find("--unit"), std::string::npos) << text;
+  }
+}
+
+/// As if the coordinates had been read from float32 numbers.
+class CoarseScan : public MemoryScan {
+ public:
+  CoarseScan(const std::vector<Vec3>& points, double step) : MemoryScan(points), step_(step) {}
+  double resolution(double /*magnitude*/) const override { return step_; }
+
+ private:
+  double step_;
+};
+
+TEST(TileScan, refuses_coordinates_too_coarse_for_a_model_and_names_their_steps) {
+  for (const double step : {0.0625, 0.125, 0.25, 0.5}) {
+    std::vector<Vec3> rounded = Room().points();
+    for (Vec3& point : rounded) {
+      point.x() = std::round(point.x() / step) * step + 5e5;
+      point.y() = std::round(point.y() / step) * step + 5.5e6;
+    }
+    const std::string code = step < 0.1 ? "" : "C10";
+    std::string text;
+    EXPECT_EQ(code_of([&] { make_cloud(MemoryScan(rounded)); }, &text), code) << step;
+    EXPECT_EQ(code_of([&] { make_cloud(CoarseScan(Room().points(), step)); }), code) << step;
+    EXPECT_EQ(text.find(std::to_string(std::lround(1000 * step)) + " mm") == std::string::npos, code.empty())
+        << text;
   }
 }
 

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <limits>
+
 #include "common/errors/error.h"
 
 namespace roomcut {
@@ -112,6 +114,57 @@ TEST_F(SlicesIo, LevelsOutOfOrderAreDamage) {
     EXPECT_STREQ(error.problems().front().code.id, "A02");
     EXPECT_NE(std::string(error.what()).find("levels/z"), std::string::npos);
   }
+}
+
+/// The text of the error that reading what `spoil` left gives; the digest fits, as of a file made by someone.
+template <class Spoil>
+std::string complaint(const std::filesystem::path& path, Spoil spoil) {
+  Slices wrong = example();
+  spoil(wrong);
+  write_slices(path, wrong, {});
+  try {
+    read_slices(path);
+  } catch (const StageError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST_F(SlicesIo, CellsThatWouldIndexOutsideTheGridAreDamage) {
+  EXPECT_EQ(complaint(path(), [](Slices&) {}), "");
+  const auto expect_damage = [&](const std::string& dataset, auto spoil) {
+    const std::string text = complaint(path(), spoil);
+    EXPECT_NE(text.find("A02"), std::string::npos) << dataset << text;
+    EXPECT_NE(text.find(dataset), std::string::npos) << text;
+  };
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  expect_damage("wall_slices/iy", [](Slices& s) { s.wall_slices[0].iy[2] = -2'000'000'000; });
+  expect_damage("wall_slices/iy", [](Slices& s) { s.wall_slices[0].iy[4] = 2'000'000'000; });
+  expect_damage("wall_slices/iy",
+                [](Slices& s) { std::swap(s.wall_slices[0].ix[1], s.wall_slices[0].ix[2]); });
+  expect_damage("wall_slices/iy", [](Slices& s) { s.wall_slices[0].ix[1] = s.wall_slices[0].ix[0]; });
+  expect_damage("wall_slices/ix", [](Slices& s) { s.wall_slices[0].ix[4] = 200; });
+  expect_damage("wall_slices/x", [nan](Slices& s) { s.wall_slices[0].x[1] = nan; });
+  expect_damage("wall_slices/y", [](Slices& s) { s.wall_slices[0].y[1] = 3; });
+  expect_damage("wall_slices/weight", [](Slices& s) { s.wall_slices[0].weight_m[1] = -1; });
+  expect_damage("wall_slices/coverage", [nan](Slices& s) { s.wall_slices[0].coverage[0] = nan; });
+}
+
+TEST_F(SlicesIo, NumbersThatNoBuildingHasAreDamage) {
+  const auto expect_damage = [&](const std::string& dataset, auto spoil) {
+    const std::string text = complaint(path(), spoil);
+    EXPECT_NE(text.find("A02"), std::string::npos) << dataset << text;
+    EXPECT_NE(text.find(dataset), std::string::npos) << text;
+  };
+  const double infinity = std::numeric_limits<double>::infinity();
+  expect_damage("bbox_min", [infinity](Slices& s) { s.bbox_min.x() = -infinity; });
+  expect_damage("bbox_min", [](Slices& s) { s.bbox_max.y() = 9e5; });
+  expect_damage("bbox_min", [](Slices& s) { std::swap(s.bbox_min, s.bbox_max); });
+  expect_damage("tau", [](Slices& s) { s.tau_m = 1e-9; });
+  expect_damage("density", [](Slices& s) { s.density = 1e308; });
+  expect_damage("histogram/area", [](Slices& s) { s.histogram.area_m2[1] = -1; });
+  expect_damage("levels/z", [](Slices& s) { s.levels[2].z = 1e300; });
+  expect_damage("levels/lo", [](Slices& s) { s.levels[0].lo = 1; });
 }
 
 TEST_F(SlicesIo, AMissingFileIsNamed) {

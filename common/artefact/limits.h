@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+/// How large what a file holds may be: the one place for it. A number beyond is damage, and is refused before
+/// anything is computed, allocated or indexed with it. All are far beyond what `ingest` makes.
+namespace roomcut::limits {
+
+inline constexpr double kFarthest_m = 1e6;       ///< coordinates in the local frame, heights, lengths
+inline constexpr double kLargestExtent_m = 1e5;  ///< of a scan's box along any axis
+inline constexpr double kLargestArea_m2 = 1e10;
+inline constexpr double kDensest = 1e12;         ///< points per square metre
+inline constexpr double kSmallestEdge_m = 1e-3;  ///< of voxels, tiles, cells and bins that indices count
+inline constexpr double kLargestEdge_m = 1e3;
+inline constexpr double kFarthestOrigin_m = 1e12;  ///< of the local frame in the scan's coordinates
+
+/// Whether the number can be a coordinate or a length in the local frame; NaN and infinity cannot.
+inline bool is_local(double metres) {
+  return std::abs(metres) <= kFarthest_m;
+}
+
+}  // namespace roomcut::limits
