@@ -29,7 +29,7 @@ help:
 	@printf '%s\n' \
 	'make demo                     set up, build, make a synthetic two-storey scan, reconstruct it (work/demo/)' \
 	'make test                     set up, build, run every test' \
-	'make build | deps             build into build/ | install the Debian packages that are missing' \
+	'make build | deps             build into build/ | install what is missing: Debian packages, readers of E57, LAS, LAZ' \
 	'' \
 	'make run SCAN=office.ply      the whole pipeline into work/office/' \
 	'make STAGE SCAN=…             up to and including one stage' \
@@ -62,6 +62,7 @@ help:
 
 deps:
 	@sh .ci/install-packages.sh
+	@sh .ci/install-python.sh "$$BUILD"
 
 build: deps
 	@[ -f "$$BUILD/CMakeCache.txt" ] || cmake -S . -B "$$BUILD" $(generator) $(CMAKE_ARGS)

@@ -7,9 +7,9 @@ set -eu
 
 # Every process that this script starts costs milliseconds, a run should cost a quarter of a second: builtins where they do.
 root=$(cd "${0%/*}/.." && pwd)
-. "$root/stages/pipeline_inputs.sh"
 stages="ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines find_openings extract report"
 runs="$stages final_partition final_weigh_faces final_raycast final_graphcut"
+. "$root/stages/pipeline_inputs.sh"
 : "${SCAN:=}" "${WORK:=}" "${CONFIG:=}" "${BUILD:=$root/build}" "${JOBS:=}" "${UP:=}" "${UNIT:=}" "${STATIONS:=}" "${TRUTH:=}"
 : "${PORT:=}" "${QUIET:=}" "${A:=}" "${B:=}"
 
@@ -73,8 +73,10 @@ take_lock() {
   done
   exec 9>> stamps/.lock
   wait_for_lock
-  # What a make that was killed had not finished writing.
-  rm -rf inputs/*.new inputs/.former.new params/.new params/.asked.new edits/.*.new pictures/*.new
+  # What a make that was killed had not finished writing; never through a link to somewhere else.
+  for file in inputs/*.new inputs/.former.new params/.new params/.asked.new edits/.*.new pictures/*.new; do
+    if [ -e "$file" ] && [ ! -L "${file%/*}" ]; then rm -rf "$file"; fi
+  done
 }
 
 wait_for_lock() {
@@ -95,16 +97,8 @@ pipeline_table() {
   "${MAKE:-make}" -f "$root/stages/pipeline.mk" table
 }
 
-# rules [--again STAGE] GOAL …: runs what is not what it should be, up to and including the goals.
+# rules GOAL …: runs what is not what it should be, up to and including the goals; in any case the stage $again.
 rules() {
-  plan=$(pipeline_table | "$BIN/artefact" plan --scan "$SCAN" "$@")
-  must=${plan%%
-*}
-  if [ -z "$must" ]; then
-    settle_inputs 0
-    return
-  fi
-  if [ "$1" = --again ]; then shift 2; fi
   # Memory that is fresh costs more than most of what is done with it. So: one heap for all threads, which is kept and used again,
   # instead of every large array being mapped and unmapped by itself; and pages of 2 MB where the system has them, but for ingest,
   # which uses too much memory once only: clearing 2 MB at a time empties the processor's caches.
@@ -112,8 +106,7 @@ rules() {
   failed=0
   ROOMCUT_INGEST_HEAP=${GLIBC_TUNABLES:-$heap} \
   GLIBC_TUNABLES=${GLIBC_TUNABLES:-$heap:glibc.malloc.hugetlb=1} \
-  ROOMCUT_MUST=$must ROOMCUT_MAY=${plan#"$must"} \
-  ROOMCUT_BIN=$BIN ROOMCUT_SCAN=$SCAN ROOMCUT_UP=$UP ROOMCUT_UNIT=$UNIT ROOMCUT_THREADS=$JOBS ROOMCUT_VERBOSITY=${QUIET:+-q} \
+  ROOMCUT_BIN=$BIN ROOMCUT_SCAN=$SCAN ROOMCUT_UP=$UP ROOMCUT_UNIT=$UNIT ROOMCUT_THREADS=$JOBS ROOMCUT_VERBOSITY=${QUIET:+-q} ROOMCUT_AGAIN=$again \
     "${MAKE:-make}" -f "$root/stages/pipeline.mk" "$@" || failed=$?
   settle_inputs $failed
   [ $failed -eq 0 ] || exit $failed
@@ -248,6 +241,7 @@ clean() {
 
 command=$1
 shift
+again=
 check_jobs
 if [ "$command" = compare ]; then
   BUILD=$(absolute "$BUILD")
@@ -277,7 +271,8 @@ case $command in
   rerun)
     # Of what follows only what was made before, and is changed by it.
     refresh
-    rules --again "$1" "$1" $(stamped) ;;
+    again=$1
+    rules "$1" $(stamped) ;;
   edit-lines)
     [ ! -f edits/wall_lines.geojson ] || fail "$WORK/edits/wall_lines.geojson: an edit is there already" \
       "go on with it, or make drop-edit first (it is moved aside, not deleted)"

@@ -5,6 +5,10 @@
 #   inputs/stations.txt  scanner positions; may be empty  params/             resolved parameters of every stage
 #   inputs/.former/      the first three as ingest accepted them last, while it has not accepted the new ones
 
+# The files in params/.
+answers=
+for stage in $stages; do answers="$answers params/$stage.json"; done
+
 # Whether $1 is a file of the text $2 and a newline.
 holds() {
   [ -f "$1" ] || return 1
@@ -18,13 +22,13 @@ holds() {
 # Writes $2 and a newline to $1 when it differs.
 record() {
   if holds "$1" "$2"; then return; fi
-  { printf '%s\n' "$2" > "$1.new" && mv -f "$1.new" "$1"; } 2> /dev/null || cannot_write "$PWD/$1" "it cannot be written"
+  { printf '%s\n' "$2" > "$1.new" && mv -f "$1.new" "$1"; } 2> /dev/null || { rm -f "$1.new"; cannot_write "$PWD/$1" "it cannot be written"; }
 }
 
 # Copies $2 to $1 when it differs.
 record_file() {
   if [ -f "$1" ] && cmp -s "$2" "$1"; then return; fi
-  { cat "$2" > "$1.new" && mv -f "$1.new" "$1"; } 2> /dev/null || cannot_write "$PWD/$1" "it cannot be written"
+  { cat "$2" > "$1.new" && mv -f "$1.new" "$1"; } 2> /dev/null || { rm -f "$1.new"; cannot_write "$PWD/$1" "it cannot be written"; }
 }
 
 # The scan must be a file, or be gone while what was made from it is here; otherwise nothing is begun or made.
@@ -71,10 +75,14 @@ settle_inputs() {
   if [ -f stamps/ingest ]; then
     rm -rf inputs/.former
   elif [ "$1" -ne 0 ] && grep -q '"exit_code": [23],' logs/ingest.json 2> /dev/null; then
-    echo "note: what was said of the scan in this call was refused and is forgotten" >&2
+    if [ -f inputs/.former/scan.path ] || [ -s inputs/stations.txt ]; then
+      echo "note: what was said of the scan in this call was refused and is forgotten" >&2
+    fi
     rm -f inputs/scan.options inputs/stations.txt
     mv -f inputs/.former/* inputs/ 2> /dev/null || true
     rm -rf inputs/.former
+    # The scan need not be read again: whether its stamp still holds is decided by content.
+    if [ -f stamps/ingest.before ]; then mv -f stamps/ingest.before stamps/ingest; fi
   fi
 }
 
@@ -136,6 +144,7 @@ choose_config() {
   fi
 }
 
+# Once its parameters were accepted.
 record_config() {
   if [ -z "$config_path" ]; then
     rm -f inputs/config.path inputs/config.yaml
@@ -145,31 +154,36 @@ record_config() {
   fi
 }
 
-# Every stage prints its resolved parameters; asked only when pipeline.yaml or a program changed. params/.asked holds both.
+config_is_recorded() {
+  if [ -n "$config_path" ]; then holds inputs/config.path "$config_path" && [ -f inputs/config.yaml ]; else [ ! -e inputs/config.path ]; fi
+}
+
+# What the parameters depend on: the programs as they lie there and the text of the CONFIG.
+asked_of() {
+  (cd "$BIN" && stat -L -c '%n %i %s %.9Y %.9Z' $stages) && cat ${CONFIG:+"$CONFIG"} /dev/null
+}
+
+# Every stage prints its resolved parameters; asked only when pipeline.yaml, a program or an answer changed: params/.asked holds them all.
 record_params() {
-  { printf '' > params/.asked.new; } 2> /dev/null || cannot_write "$PWD/params/.asked.new" "it cannot be written"
-  moment=$(stat -c %.9Z params/.asked.new)
-  state=$(cd "$BIN" && stat -L -c '%n %i %s %.9Y %.9Z' $stages 2> /dev/null) || fail "$BIN: the stages are not built" "make build"
-  printf '%s\n' "$state" > params/.asked.new
-  if [ -n "$CONFIG" ]; then cat "$CONFIG" >> params/.asked.new; fi
-  complete=yes
-  for stage in $stages; do [ -f "params/$stage.json" ] || complete=no; done
-  if [ $complete = yes ] && cmp -s params/.asked.new params/.asked; then
-    rm -f params/.asked.new
-    return
-  fi
+  if { asked_of && cat $answers; } 2> /dev/null | cmp -s - params/.asked && config_is_recorded; then return; fi
+  rm -f params/.asked
+  { printf '' > params/.asked.new; } 2> /dev/null || cannot_write "$PWD/params" "it cannot be written"
   # A program that was written in this very moment may be written again unseen: its answers are not kept.
-  newest=$(printf '%s\n' "$state" | sed 's/.* //' | sort -n | tail -n 1)
+  moment=$(stat -c %.9Z params/.asked.new)
+  { asked_of > params/.asked.new; } 2> /dev/null || { rm -f params/.asked.new; cannot_write "$PWD/params" "it cannot be written"; }
+  newest=$(cd "$BIN" && stat -L -c %.9Z $stages | sort -n | tail -n 1)
   settled=
   if [ "$newest" \< "$moment" ]; then settled=yes; fi
-  rm -rf params/.new
-  mkdir params/.new
+  mkdir params/.new 2> /dev/null || cannot_write "$PWD/params" "it cannot be written"
   { [ -n "$settled" ] && take_known_params; } || ask_params
-  for stage in $stages; do
-    if [ -f "params/$stage.json" ] && cmp -s "params/.new/$stage.json" "params/$stage.json"; then rm -f "params/.new/$stage.json"; fi
-  done
-  rmdir params/.new 2> /dev/null || { mv -f params/.new/*.json params/ && rmdir params/.new; }
-  if [ -n "$settled" ]; then mv -f params/.asked.new params/.asked; else rm -f params/.asked.new params/.asked; fi
+  { mv -f params/.new/*.json params/ && rmdir params/.new; } 2> /dev/null || cannot_write "$PWD/params" "it cannot be written"
+  record_config
+  if [ -n "$settled" ]; then
+    { cat $answers >> params/.asked.new && mv -f params/.asked.new params/.asked; } 2> /dev/null ||
+      { rm -f params/.asked.new; cannot_write "$PWD/params/.asked" "it cannot be written"; }
+  else
+    rm -f params/.asked.new
+  fi
 }
 
 # The answers that the same programs gave to the same pipeline.yaml in another work folder. From inside the folder that holds them:
@@ -202,10 +216,11 @@ ask_params() {
 }
 
 refresh() {
-  [ -x "$BIN/artefact" ] && [ -x "$BIN/ingest" ] || fail "$BIN: the stages are not built" "make build"
+  for program in artefact $stages; do
+    [ -x "$BIN/$program" ] || fail "$BIN: the stages are not built" "make build"
+  done
   choose_config
   record_params
-  record_config
   record_scan
   record_stations
 }

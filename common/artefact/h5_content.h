@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
+#include <variant>
 
 #include "common/artefact/h5_detail.h"
 #include "common/artefact/h5_parser.h"

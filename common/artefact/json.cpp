@@ -119,6 +119,19 @@ double local_metres(const Json& value) {
   return number_in(value, -limits::kFarthest_m, limits::kFarthest_m);
 }
 
+double number_at(const Json& owner, const char* key, double low, double high) {
+  const Json& value = owner.at(key);
+  try {
+    return number_in(value, low, high);
+  } catch (const BadJson& trouble) {
+    throw BadJson(std::string(key) + " " + trouble.what());
+  }
+}
+
+double metres_at(const Json& owner, const char* key) {
+  return number_at(owner, key, -limits::kFarthest_m, limits::kFarthest_m);
+}
+
 std::string canonical_json(const Json& value) {
   require_finite(value, "");
   return value.dump();

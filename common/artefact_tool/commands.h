@@ -24,10 +24,10 @@ struct PlanOptions {
   std::string again;           ///< a stage that is to run in any case; may be empty
 };
 
-/// Reads the pipeline (parse_pipeline()) from standard input and prints two lines of names for Make: the
-/// stages up to and including `goals` that must run, and those that run only if one of the former comes out
-/// different. The work folder is the current one. Outputs that were changed by hand are moved aside first
-/// (set_aside()); notes go to standard error. Throws StageError(kCannotWrite).
+/// Reads the pipeline (parse_pipeline()) from standard input and prints for Make, one a line, the names of
+/// the stages up to and including `goals` that must run, and as "?name" those that run only if one of the
+/// former comes out different (mark_changed()). The work folder is the current one. Outputs that were changed
+/// by hand are moved aside first (set_aside()); notes go to standard error. Throws StageError(kCannotWrite).
 void print_plan(const PlanOptions& options, const std::vector<std::string>& goals);
 
 /// Reads the pipeline from standard input and prints a line per stage; changes nothing.

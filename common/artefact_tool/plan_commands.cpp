@@ -17,11 +17,14 @@ std::vector<PipelineStage> pipeline_from_stdin() {
   return parse_pipeline({std::istreambuf_iterator<char>(std::cin), {}});
 }
 
-void print_names(const std::vector<std::string>& names) {
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    std::cout << (i == 0 ? "" : " ") << names[i];
+/// Marks of the run before go, and those come without which a reader could be passed over.
+void prepare_marks(const std::vector<PipelineStage>& needed) {
+  for (const PipelineStage& stage : needed) {
+    unmark_changed("stamps/" + stage.name);
   }
-  std::cout << "\n";
+  for (const std::string& name : differently_read(needed)) {
+    mark_changed("stamps/" + name);
+  }
 }
 
 }  // namespace
@@ -42,19 +45,19 @@ void print_plan(const PlanOptions& options, const std::vector<std::string>& goal
   for (const std::string& note : set_aside(stale)) {
     std::cerr << "note: " << note << "\n";
   }
-  std::vector<std::string> must;
-  std::vector<std::string> may;
+  if (stale.empty()) {
+    return;
+  }
+  prepare_marks(needed);
   const auto waits = waits_for(needed, stale);
   for (std::size_t i = 0; i < needed.size(); ++i) {
     const auto is_it = [&](const StaleStage& stage) { return stage.name == needed[i].name; };
     if (std::any_of(stale.begin(), stale.end(), is_it)) {
-      must.push_back(needed[i].name);
+      std::cout << needed[i].name << "\n";
     } else if (!waits[i].empty()) {
-      may.push_back(needed[i].name);
+      std::cout << "?" << needed[i].name << "\n";
     }
   }
-  print_names(must);
-  print_names(may);
 }
 
 void print_status(const PlanOptions& options) {

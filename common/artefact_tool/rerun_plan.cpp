@@ -144,6 +144,28 @@ std::vector<std::vector<std::string>> waits_for(const std::vector<PipelineStage>
   return result;
 }
 
+std::vector<std::string> differently_read(const std::vector<PipelineStage>& pipeline) {
+  std::map<std::string, std::string> maker;  // of each file
+  std::map<std::string, std::string> made;   // its payload digest, as its maker's stamp has it
+  std::vector<std::string> found;
+  for (const PipelineStage& stage : pipeline) {
+    const Stamp stamp = read_stamp("stamps/" + stage.name).stamp;
+    for (const StampEntry& input : stamp.inputs) {
+      const auto of = maker.find(input.name);
+      if (of != maker.end() && made[input.name] != input.sha256) {
+        found.push_back(of->second);
+      }
+    }
+    for (const std::string& output : stage.outputs) {
+      maker[output] = stage.name;
+    }
+    for (const StampEntry& output : stamp.outputs) {
+      made[output.name] = output.sha256;
+    }
+  }
+  return found;
+}
+
 std::vector<PipelineStage> needed_for(const std::vector<PipelineStage>& pipeline,
                                       const std::vector<std::string>& goals) {
   const bool all = std::find(goals.begin(), goals.end(), "run") != goals.end();

@@ -39,6 +39,11 @@ std::vector<StaleStage> find_stale(const std::vector<PipelineStage>& pipeline, c
 std::vector<std::vector<std::string>> waits_for(const std::vector<PipelineStage>& pipeline,
                                                 const std::vector<StaleStage>& stale);
 
+/// Those stages whose readers cannot rely on "it came out as before": a reader among those that wait has read
+/// another version of an output than the stage made last. So it is after a run that was killed between the
+/// two.
+std::vector<std::string> differently_read(const std::vector<PipelineStage>& pipeline);
+
 /// The stages that a run up to and including `goals` is made of, in the order of the pipeline. "run" is all
 /// of them.
 std::vector<PipelineStage> needed_for(const std::vector<PipelineStage>& pipeline,

@@ -27,6 +27,7 @@ inline constexpr ErrorCode kScanBadLine{"C08", ExitCode::kInput};    ///< a text
 inline constexpr ErrorCode kScanExtent{"C09", ExitCode::kInput};     ///< degenerate or absurd extent (unit?)
 inline constexpr ErrorCode kScanTooCoarse{"C10", ExitCode::kInput};  ///< coordinates too coarse for a model
 inline constexpr ErrorCode kScanColumns{"C11", ExitCode::kInput};    ///< which columns of a text are x, y, z?
+inline constexpr ErrorCode kScanNoDecoder{"C12", ExitCode::kInput};  ///< E57, LAS: no environment to read it
 
 // A: artefacts
 inline constexpr ErrorCode kArtefactMissing{"A01", ExitCode::kInput};  ///< an input artefact is not there
@@ -69,6 +70,7 @@ inline constexpr ErrorCode kTooComplex{"N07", ExitCode::kNoResult};   ///< a cou
 inline constexpr ErrorCode kMeshUnreadable{"M01", ExitCode::kInput};
 inline constexpr ErrorCode kMeshFormat{"M02", ExitCode::kInput};
 inline constexpr ErrorCode kMeshNotClosed{"M03", ExitCode::kInput};
+inline constexpr ErrorCode kMeshesUnlike{"M04", ExitCode::kInput};  ///< of different unit, size or place
 inline constexpr ErrorCode kSceneUnreadable{"Y01", ExitCode::kInput};
 inline constexpr ErrorCode kSceneInvalid{"Y02", ExitCode::kInput};
 

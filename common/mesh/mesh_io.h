@@ -17,7 +17,7 @@ namespace roomcut {
 /// are triangulated by triangulate_polygon(). Face properties `kind`, `storey`, `region` of a PLY are taken
 /// over when all are there. Vertices are kept as they stand (see weld_vertices()). Errors: kMeshUnreadable
 /// (missing, folder, permission), kMeshFormat (anything wrong inside, with line or byte; files that promise
-/// more than they hold are refused before memory is asked for).
+/// more than they hold are refused before memory is asked for; vertices 500 km from the rest; above 1 GiB).
 TriangleMesh read_mesh(const std::filesystem::path& path);
 /// The same from the file's content; `name` stands in messages and its extension tells an OBJ.
 TriangleMesh parse_mesh(std::string_view content, const std::string& name);

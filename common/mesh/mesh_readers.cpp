@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include "common/mesh/mesh_io.h"
 #include "common/mesh/planar_triangulation.h"
@@ -17,6 +16,14 @@ namespace mesh_readers {
 
 void bad_mesh(const std::string& name, const std::string& what) {
   throw StageError(errors::kMeshFormat, name, what, "PLY, OFF and OBJ with triangles or polygons are read");
+}
+
+void append_vertex(TriangleMesh& mesh, const Vec3& p, const std::string& name) {
+  constexpr double kLargest = 1e10;  // the Earth's size in millimetres
+  if (!p.allFinite() || p.cwiseAbs().maxCoeff() > kLargest) {
+    bad_mesh(name, "vertex " + std::to_string(mesh.vertices.size()) + " has a coordinate that is no place's");
+  }
+  mesh.vertices.push_back(p);
 }
 
 std::size_t append_face(TriangleMesh& mesh, std::span<const std::int64_t> corners, const std::string& name) {
@@ -104,7 +111,7 @@ TriangleMesh parse_off(std::string_view content, const std::string& name) {
     Vec3 p;
     if (!text.next_line()) fail("the file ends before its last vertex");
     if (!text.number(p.x()) || !text.number(p.y()) || !text.number(p.z())) fail("expected three coordinates");
-    mesh.vertices.push_back(p);
+    append_vertex(mesh, p, name);
   }
   std::vector<std::int64_t> corners;
   for (std::int64_t i = 0; i < faces; ++i) {
@@ -132,7 +139,7 @@ TriangleMesh parse_obj(std::string_view content, const std::string& name) {
       if (!text.number(p.x()) || !text.number(p.y()) || !text.number(p.z())) {
         bad_mesh(name, at + "expected three coordinates");
       }
-      mesh.vertices.push_back(p);
+      append_vertex(mesh, p, name);
     } else if (keyword == "f") {
       corners.clear();
       for (std::string_view word = text.word(); !word.empty(); word = text.word()) {
@@ -152,6 +159,53 @@ TriangleMesh parse_obj(std::string_view content, const std::string& name) {
 
 }  // namespace mesh_readers
 
+namespace {
+
+/// No building has a vertex so far from the middle of the others; one in a wrong unit hardly has [m].
+constexpr double kFarthest_m = 5e5;
+
+void check_extent(const TriangleMesh& mesh, const std::string& name) {
+  Vec3 middle;
+  std::vector<double> values(mesh.vertices.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    std::transform(mesh.vertices.begin(), mesh.vertices.end(), values.begin(),
+                   [axis](const Vec3& p) { return p[axis]; });
+    const auto median = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), median, values.end());
+    middle[axis] = *median;
+  }
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const double distance = (mesh.vertices[i] - middle).norm();
+    if (distance > kFarthest_m) {
+      throw StageError(
+          errors::kMeshFormat, name,
+          "vertex " + std::to_string(i) + " lies " + std::to_string(std::llround(distance / 1000)) +
+              " km from the rest, where no building reaches",
+          "correct or delete it; or is the whole file in millimetres? Coordinates count as metres");
+    }
+  }
+}
+
+/// The whole file. What never ends (a device, a pipe) is refused as well as what is too large.
+std::string read_bytes(std::ifstream& file, const std::string& name) {
+  constexpr std::size_t kLargest = std::size_t{1} << 30U;
+  constexpr std::size_t kStep = std::size_t{1} << 20U;
+  std::string content;
+  do {
+    const std::size_t had = content.size();
+    content.resize(had + kStep);
+    file.read(content.data() + had, static_cast<std::streamsize>(kStep));
+    content.resize(had + static_cast<std::size_t>(file.gcount()));
+    if (content.size() > kLargest) {
+      throw StageError(errors::kMeshFormat, name, "the file is larger than 1 GiB",
+                       "a building's surface needs less: give a simplified mesh");
+    }
+  } while (file);
+  return content;
+}
+
+}  // namespace
+
 TriangleMesh parse_mesh(std::string_view content, const std::string& name) {
   using namespace mesh_readers;
   TriangleMesh mesh;
@@ -169,6 +223,7 @@ TriangleMesh parse_mesh(std::string_view content, const std::string& name) {
   if (mesh.triangles.empty()) {
     bad_mesh(name, "there is no face in it");
   }
+  check_extent(mesh, name);
   return mesh;
 }
 
@@ -180,9 +235,10 @@ TriangleMesh read_mesh(const std::filesystem::path& path) {
     throw StageError(errors::kMeshUnreadable, path.string(), folder ? "is a folder" : "cannot be opened",
                      "check the name and the permission");
   }
-  const std::string content{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const std::string content = read_bytes(file, path.string());
   if (file.bad()) {
-    throw StageError(errors::kMeshUnreadable, path.string(), "cannot be read");
+    throw StageError(errors::kMeshUnreadable, path.string(), "cannot be read",
+                     "copy it anew: the disk or the network reports an error");
   }
   return parse_mesh(content, path.string());
 }

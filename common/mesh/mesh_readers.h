@@ -19,6 +19,9 @@ TriangleMesh parse_obj(std::string_view content, const std::string& name);
 /// Throws StageError(kMeshFormat).
 [[noreturn]] void bad_mesh(const std::string& name, const std::string& what);
 
+/// Appends a vertex, whose coordinates must be finite and no larger than any place's in any unit.
+void append_vertex(TriangleMesh& mesh, const Vec3& p, const std::string& name);
+
 /// Appends a face with 3 or more corners (0-based indices) as triangles; returns how many.
 std::size_t append_face(TriangleMesh& mesh, std::span<const std::int64_t> corners, const std::string& name);
 

@@ -155,10 +155,17 @@ class PlyReader {
     bad_mesh(name_, "the file ends early, or byte " + std::to_string(at_) + " is no number");
   }
 
+  /// `v`, which must be a whole number in the range: a file may hold NaN where it says that an index stands.
+  std::int64_t whole(double v, double least, double most, const char* what) {
+    if (!(v >= least && v <= most) || v != std::floor(v)) {
+      bad_mesh(name_, std::string(what) + " before byte " + std::to_string(at_) + " is " + std::to_string(v));
+    }
+    return static_cast<std::int64_t>(v);
+  }
+
   std::int64_t list_length(const Property& property) {
-    const double count = value(*property.count_type);
-    if (count < 0 || count > static_cast<double>(content_.size() - at_) + 1) truncated();
-    return static_cast<std::int64_t>(count);
+    return whole(value(*property.count_type), 0, static_cast<double>(content_.size() - at_) + 1,
+                 "a list's length");
   }
 
   void skip_row(const Element& element) {
@@ -184,7 +191,7 @@ class PlyReader {
         if (property.name == "z") p.z() = v;
       }
       if (!p.allFinite()) bad_mesh(name_, "vertex " + std::to_string(i) + " has no finite x, y, z");
-      mesh_.vertices.push_back(p);
+      append_vertex(mesh_, p, name_);
     }
   }
 
@@ -198,14 +205,21 @@ class PlyReader {
           const bool wanted = property.name == "vertex_indices" || property.name == "vertex_index";
           for (std::int64_t n = list_length(property); n > 0; --n) {
             const double v = value(property.type);
-            if (wanted) corners.push_back(static_cast<std::int64_t>(v));
+            if (wanted) {
+              corners.push_back(
+                  whole(v, 0, static_cast<double>(mesh_.vertices.size()) - 1, "a vertex number"));
+            }
           }
           continue;
         }
         const double v = value(property.type);
-        if (property.name == "kind") extras[0] = v;
-        if (property.name == "storey") extras[1] = v;
-        if (property.name == "region") extras[2] = v;
+        if (property.name == "kind") extras[0] = static_cast<double>(whole(v, 0, 3, "a face's kind"));
+        if (property.name == "storey") {
+          extras[1] = static_cast<double>(whole(v, INT16_MIN, INT16_MAX, "a face's storey"));
+        }
+        if (property.name == "region") {
+          extras[2] = static_cast<double>(whole(v, INT32_MIN, INT32_MAX, "a face's region"));
+        }
       }
       const std::size_t triangles = append_face(mesh_, corners, name_);
       if (extras[0] && extras[1] && extras[2]) {

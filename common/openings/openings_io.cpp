@@ -64,7 +64,7 @@ constexpr double kMostSpread = 1e3;  ///< a share, with room for rounding
 OpeningProof proof_from(const Json& value) {
   constexpr std::int64_t kMostPoints = std::numeric_limits<std::uint32_t>::max();
   return {static_cast<std::uint32_t>(whole_number_in(value.at("points"), 0, kMostPoints)),
-          number_in(value.at("spread"), 0, kMostSpread), local_metres(value.at("sigma_m"))};
+          number_at(value, "spread", 0, kMostSpread), metres_at(value, "sigma_m")};
 }
 
 Opening opening_from(const Json& feature) {
@@ -83,9 +83,9 @@ Opening opening_from(const Json& feature) {
   opening.wall_b = properties.at("walls").at(1).get<std::string>();
   opening.jamb_a = point(0);
   opening.jamb_b = point(1);
-  opening.thickness_m = local_metres(properties.at("thickness_m"));
-  opening.sill_z = local_metres(properties.at("sill_z_m"));
-  opening.head_z = local_metres(properties.at("head_z_m"));
+  opening.thickness_m = metres_at(properties, "thickness_m");
+  opening.sill_z = metres_at(properties, "sill_z_m");
+  opening.head_z = metres_at(properties, "head_z_m");
   opening.proof_a = proof_from(properties.at("jamb_a"));
   opening.proof_b = proof_from(properties.at("jamb_b"));
   opening.proof_head = proof_from(properties.at("head"));

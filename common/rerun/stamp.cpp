@@ -69,10 +69,6 @@ bool parse(const std::string& text, Stamp& stamp) {
   return line == kEnd && !stamp.outputs.empty();
 }
 
-StampState state_without(const fs::path& stamp) {
-  return file_state(before_of(stamp)) ? StampState::kUnfinished : StampState::kNone;
-}
-
 std::string to_text(const Stamp& stamp) {
   std::ostringstream text;
   text << kHead << '\n';
@@ -86,16 +82,27 @@ std::string to_text(const Stamp& stamp) {
   return text.str();
 }
 
+bool same_payloads(const Stamp& before, const Stamp& now) {
+  return std::all_of(now.outputs.begin(), now.outputs.end(), [&](const StampEntry& entry) {
+    const StampEntry* old = find(before.outputs, entry.name);
+    return old != nullptr && old->sha256 == entry.sha256;
+  });
+}
+
+fs::path mark_of(const fs::path& stamp) {
+  return stamp.parent_path() / ("." + stamp.filename().string() + ".changed");
+}
+
 }  // namespace
 
 StampFile read_stamp(const fs::path& stamp) {
   StampFile file;
-  if (!file_state(stamp)) {
-    file.state = state_without(stamp);
+  const bool there = file_state(stamp).has_value();
+  if (!there && !file_state(before_of(stamp))) {
     return file;
   }
-  const bool whole = parse(read_text_file(stamp), file.stamp);
-  file.state = whole ? StampState::kWhole : StampState::kUnknown;
+  const bool whole = parse(read_text_file(there ? stamp : before_of(stamp)), file.stamp);
+  file.state = !there ? StampState::kUnfinished : whole ? StampState::kWhole : StampState::kUnknown;
   if (!whole) {
     file.stamp = {};
   }
@@ -129,9 +136,25 @@ void withdraw_stamp(const fs::path& stamp) {
 }
 
 void settle_stamp(const fs::path& stamp, const Stamp& content) {
+  if (!same_payloads(read_stamp(stamp).stamp, content)) {
+    mark_changed(stamp);
+  }
   write_unsynced_file(stamp, to_text(content));
   std::error_code ignored;
   fs::remove(before_of(stamp), ignored);
+}
+
+void mark_changed(const fs::path& stamp) {
+  write_unsynced_file(mark_of(stamp), "changed\n");
+}
+
+void unmark_changed(const fs::path& stamp) {
+  std::error_code error;
+  fs::remove(mark_of(stamp), error);
+  if (error) {
+    throw StageError(errors::kCannotWrite, mark_of(stamp).string(), "cannot be removed: " + error.message(),
+                     "choose a folder that you may write, with WORK=");
+  }
 }
 
 }  // namespace roomcut

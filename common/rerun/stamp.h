@@ -33,7 +33,7 @@ enum class StampState {
 
 struct StampFile {
   StampState state = StampState::kNone;
-  Stamp stamp;  ///< empty unless kWhole
+  Stamp stamp;  ///< of kUnfinished the one of before; empty when there is none
 };
 
 /// Reads stamps/<name>. Names in it that lead out of the work folder make it kUnknown.
@@ -51,8 +51,15 @@ std::vector<std::string> changed_inputs(const Stamp& stamp, const std::vector<st
 /// StageError(kCannotWrite).
 void withdraw_stamp(const std::filesystem::path& stamp);
 
-/// After a stage ran: puts `content` in place of `stamp` and removes `<stamp>.before`. Throws
-/// StageError(kCannotWrite).
+/// After a stage ran: puts `content` in place of `stamp` and removes `<stamp>.before`. When an output's
+/// payload is not that of before, mark_changed() comes first. Throws StageError(kCannotWrite).
 void settle_stamp(const std::filesystem::path& stamp, const Stamp& content);
+
+/// Leaves the mark, stamps/.<name>.changed, that tells Make in this run that whoever reads the stage's
+/// outputs must look whether they are still what it read. Throws StageError(kCannotWrite).
+void mark_changed(const std::filesystem::path& stamp);
+
+/// Takes away the mark of the run before. Throws StageError(kCannotWrite).
+void unmark_changed(const std::filesystem::path& stamp);
 
 }  // namespace roomcut

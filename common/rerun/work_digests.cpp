@@ -49,7 +49,8 @@ WorkDigests::WorkDigests(PayloadDigest payload_of, fs::path scan, unsigned long 
   std::istringstream lines(read_text_file(kDigestFile));
   for (std::string line; std::getline(lines, line);) {
     if (auto entry = name_and_rest(line)) {
-      known_[entry->first] = entry->second;  // the last line of a name is the newest
+      is_new_ = known_.contains(entry->first) || is_new_;  // save() leaves one line a name
+      known_[entry->first] = entry->second;                // the last line of a name is the newest
     }
   }
 }

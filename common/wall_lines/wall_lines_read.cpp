@@ -55,10 +55,10 @@ WallLine line_from(const Json& feature) {
       line.levels->push_back(static_cast<int>(whole_number_in(level, 0, kMostLevels)));
     }
   }
-  line.support_m = local_metres(properties.at("support_m"));
-  line.rms_m = local_metres(properties.at("rms_m"));
-  line.sigma_offset_m = local_metres(properties.at("sigma_offset_m"));
-  line.sigma_angle_rad = number_in(properties.at("sigma_angle_deg"), 0, kMostDegrees) * kDegToRad;
+  line.support_m = metres_at(properties, "support_m");
+  line.rms_m = metres_at(properties, "rms_m");
+  line.sigma_offset_m = metres_at(properties, "sigma_offset_m");
+  line.sigma_angle_rad = number_at(properties, "sigma_angle_deg", 0, kMostDegrees) * kDegToRad;
   if (!properties.at("note").is_null()) {
     line.note = properties.at("note").get<std::string>();
   }

@@ -40,11 +40,36 @@ void split(const std::array<Vec3, 3>& first, double limit_m, TriangleMesh& out) 
   }
 }
 
+/// About how many pieces split() makes: along a triangle's longest side times across it; a needle falls into
+/// three of half its length.
+double piece_count(const TriangleMesh& mesh, double limit_m) {
+  double count = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const std::array<Vec3, 3> corners{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
+    const std::size_t c = longest_side(corners);
+    const double length = (corners[(c + 1) % 3] - corners[c]).norm();
+    const double height = length > 0 ? 2 * triangle_area(mesh, t) / length : 0;
+    const double along = 1 + length / limit_m;
+    count += 2 * std::max(along * (1 + height / limit_m), std::pow(along, std::log2(3.0)));
+  }
+  return count;
+}
+
+/// The longest side that a piece may have: some 100,000 pieces of a building, never many millions.
+double longest_piece(const TriangleMesh& model) {
+  const double most = std::max(1e6, 10 * static_cast<double>(model.triangles.size()));
+  double limit = std::max(0.05, std::sqrt(surface_area(model)) / 200);
+  while (piece_count(model, limit) > most) {
+    limit *= 2;
+  }
+  return limit;
+}
+
 }  // namespace
 
 DistanceMesh measure_for_display(const TriangleMesh& model, const MeshTree& truth) {
   DistanceMesh out;
-  const double limit = std::max(0.05, std::sqrt(surface_area(model)) / 200);
+  const double limit = longest_piece(model);
   TriangleMesh pieces;
   for (std::size_t t = 0; t < model.triangles.size(); ++t) {
     split({model.corner(t, 0), model.corner(t, 1), model.corner(t, 2)}, limit, pieces);

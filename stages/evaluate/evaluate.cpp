@@ -15,8 +15,43 @@ namespace {
 constexpr double kAutoSamples = 250000;
 constexpr std::uint64_t kModelSeed = 1, kTruthSeed = 2, kColumnSeed = 3;
 
+/// Bounds what a surface of long, thin triangles costs, or one of another unit; buildings stay far below.
+constexpr double kMostSamples = 1e6;
+/// Where the user chose the spacing: some 2 GB.
+constexpr double kMostChosenSamples = 2e7;
+
 double auto_spacing(double area_m2) {
   return std::clamp(std::sqrt(area_m2 / kAutoSamples), 0.002, 0.5);
+}
+
+double column_spacing(const std::optional<double>& chosen, double area_m2) {
+  const double most = chosen ? kMostChosenSamples : kMostSamples;
+  const double spacing = chosen.value_or(std::max(auto_spacing(area_m2), std::sqrt(area_m2 / most)));
+  if (area_m2 > most * spacing * spacing * 1.01) {
+    throw StageError(
+        errors::kTooComplex, "column_spacing_m",
+        "that are more than 20 million vertical lines through " + std::to_string(area_m2) + " m^2",
+        "choose a larger spacing, or auto");
+  }
+  return spacing;
+}
+
+/// One spacing for both surfaces.
+double sample_spacing(const std::optional<double>& chosen, const TriangleMesh& model,
+                      const TriangleMesh& truth, double truth_m2) {
+  if (!chosen) {
+    return affordable_spacing(model, affordable_spacing(truth, auto_spacing(truth_m2), kMostSamples),
+                              kMostSamples);
+  }
+  for (const TriangleMesh* mesh : {&model, &truth}) {
+    const double enough = affordable_spacing(*mesh, *chosen, kMostChosenSamples);
+    if (enough > *chosen) {
+      throw StageError(errors::kTooComplex, "sample_spacing_m",
+                       "that are more than 20 million samples of one surface",
+                       "choose " + std::to_string(enough) + " or more, or auto");
+    }
+  }
+  return *chosen;
 }
 
 void require_closed_truth(const MeshCheck& check) {
@@ -56,7 +91,7 @@ void score_spaces(const TriangleMesh& model, const TriangleMesh& truth,
   const Bounds3 b = bounds(truth);
   const Vec2 lo = a.lo.cwiseMin(b.lo).head<2>();
   const Vec2 hi = a.hi.cwiseMax(b.hi).head<2>();
-  scores.column_spacing_m = params.column_spacing_m.value_or(auto_spacing((hi - lo).x() * (hi - lo).y()));
+  scores.column_spacing_m = column_spacing(params.column_spacing_m, (hi - lo).x() * (hi - lo).y());
   scores.volume = compare_volumes(truth_columns, model_columns, rooms, finder, lo, hi,
                                   scores.column_spacing_m, kColumnSeed);
   std::vector<std::uint8_t> found;
@@ -110,7 +145,7 @@ Scores evaluate(const TriangleMesh& model, const TriangleMesh& truth, const std:
   require_closed_truth(scores.truth_check);
   scores.model_check = check_mesh(model);
   scores.diagonal_m = bounds(truth).diagonal();
-  scores.sample_spacing_m = params.sample_spacing_m.value_or(auto_spacing(scores.truth_check.area_m2));
+  scores.sample_spacing_m = sample_spacing(params.sample_spacing_m, model, truth, scores.truth_check.area_m2);
   const MeasuredSurface model_surface(model);
   const MeasuredSurface truth_surface(truth);
   const auto from_model = measure(model, model_surface, truth_surface, scores.sample_spacing_m, kModelSeed);

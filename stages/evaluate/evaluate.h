@@ -60,8 +60,9 @@ TriangleMesh prepared(const TriangleMesh& mesh, const Vec3& origin);
 
 /// Scores `model` against `truth`, both prepared() with the same origin, which lies near them; `rooms` in the
 /// same frame; `cells`, if given, are those that the model was made of, and are explained. Throws
-/// StageError(kMeshNotClosed) when the truth is not a closed, oriented mesh. Parallel; the same result for
-/// any number of threads.
+/// StageError(kMeshNotClosed) when the truth is not a closed, oriented mesh, kTooComplex when a chosen
+/// spacing asks for more than 20 million samples; with `auto` the spacing grows until 1 million do. Parallel;
+/// the same result for any number of threads.
 Scores evaluate(const TriangleMesh& model, const TriangleMesh& truth, const std::vector<DescribedRoom>& rooms,
                 const EvaluateParams& params, const LabelledCells* cells = nullptr);
 

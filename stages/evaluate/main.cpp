@@ -4,6 +4,7 @@
 #include "common/cli/run_stage.h"
 #include "common/errors/codes.h"
 #include "common/mesh/mesh_io.h"
+#include "stages/evaluate/comparable.h"
 #include "stages/evaluate/evaluate.h"
 #include "stages/evaluate/evaluate_io.h"
 #include "stages/evaluate/params.h"
@@ -54,6 +55,7 @@ void body(StageRun& run, const EvaluateParams& params) {
   const TriangleMesh truth_file = read_mesh(run.input("truth"));
   const TriangleMesh model_file = read_mesh(run.input("model"));
   const Bounds3 box = bounds(truth_file);
+  require_comparable({run.input("model").string(), bounds(model_file)}, {run.input("truth").string(), box});
   const Vec3 origin = 0.5 * (box.lo + box.hi);  // sums and products stay small far from the origin
   std::vector<DescribedRoom> rooms;
   if (run.has_input("truth-json")) {
@@ -72,7 +74,8 @@ void body(StageRun& run, const EvaluateParams& params) {
   write_json_artefact(run.output("scores"), artefacts::kScores, run.provenance(), Frame{},
                       scores_json(scores));
   write_cells_out(run, scores, cells);
-  run.chose("sample_spacing_m", scores.sample_spacing_m, "about 250,000 samples of the truth");
+  run.chose("sample_spacing_m", scores.sample_spacing_m,
+            "about 250,000 samples of the truth, at most 1 million of either surface");
   if (!run.quiet()) {
     std::cout << scores_table(scores);
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "common/random/counter_random.h"
 
@@ -10,10 +11,20 @@ namespace roomcut {
 
 namespace {
 
+/// Parts along each side of a triangle, so that it has parts^2 samples.
+double parts(const TriangleMesh& mesh, std::size_t t, double spacing_m) {
+  return std::max(std::ceil(std::sqrt(triangle_area(mesh, t)) / spacing_m), 1.0);
+}
+
+/// Steps along a side; its ends are no samples of it.
+double steps(const Vec3& a, const Vec3& b, double spacing_m) {
+  return std::max(std::ceil((b - a).norm() / spacing_m), 1.0);
+}
+
 void sample_inside(const TriangleMesh& mesh, std::size_t t, double spacing_m, std::uint64_t seed,
                    std::vector<SurfaceSample>& out) {
   const double area = triangle_area(mesh, t);
-  const auto n = static_cast<int>(std::clamp(std::ceil(std::sqrt(area) / spacing_m), 1.0, 10000.0));
+  const auto n = static_cast<int>(parts(mesh, t, spacing_m));
   const Vec3& a = mesh.corner(t, 0);
   const Vec3 u = (mesh.corner(t, 1) - a) / n;
   const Vec3 v = (mesh.corner(t, 2) - a) / n;
@@ -45,9 +56,9 @@ void sample_edges(const TriangleMesh& mesh, std::size_t t, double spacing_m,
     }
     const Vec3& a = mesh.corner(t, static_cast<int>(c));
     const Vec3& b = mesh.corner(t, static_cast<int>((c + 1) % 3));
-    const auto steps = static_cast<int>(std::clamp(std::ceil((b - a).norm() / spacing_m), 1.0, 1e6));
-    for (int i = 1; i < steps; ++i) {
-      const double share = static_cast<double>(i) / steps;
+    const auto count = static_cast<int>(steps(a, b, spacing_m));
+    for (int i = 1; i < count; ++i) {
+      const double share = static_cast<double>(i) / count;
       out.push_back({(1 - share) * a + share * b, 0, static_cast<std::int32_t>(t)});
     }
   }
@@ -76,6 +87,30 @@ std::vector<SurfaceSample> sample_surface(const TriangleMesh& mesh, double spaci
     sample_corners(mesh, t, seen, out);
   }
   return out;
+}
+
+double sample_count(const TriangleMesh& mesh, double spacing_m) {
+  double count = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const double n = parts(mesh, t, spacing_m);
+    count += n * n + 3;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t next = (c + 1) % 3;
+      if (mesh.triangles[t][c] <= mesh.triangles[t][next]) {  // as sample_edges()
+        count +=
+            steps(mesh.corner(t, static_cast<int>(c)), mesh.corner(t, static_cast<int>(next)), spacing_m) - 1;
+      }
+    }
+  }
+  return count;
+}
+
+double affordable_spacing(const TriangleMesh& mesh, double spacing_m, double budget) {
+  const double least = 4 * static_cast<double>(mesh.triangles.size());
+  while (sample_count(mesh, spacing_m) > std::max(budget, least)) {
+    spacing_m *= std::numbers::sqrt2;
+  }
+  return spacing_m;
 }
 
 }  // namespace roomcut

@@ -20,4 +20,11 @@ struct SurfaceSample {
 /// `spacing_m`, ends included, so that thin triangles and corners are not missed. In order of the triangles.
 std::vector<SurfaceSample> sample_surface(const TriangleMesh& mesh, double spacing_m, std::uint64_t seed);
 
+/// How many samples that would be, at most: corners that triangles share are counted for each.
+double sample_count(const TriangleMesh& mesh, double spacing_m);
+
+/// The least spacing, `spacing_m` times a power of the root of 2, at which sample_count() is at most
+/// `budget`, or at which it does not fall any more: a mesh has samples on every triangle.
+double affordable_spacing(const TriangleMesh& mesh, double spacing_m, double budget);
+
 }  // namespace roomcut

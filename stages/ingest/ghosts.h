@@ -20,11 +20,24 @@ struct KeptTile {
   std::uint64_t points = 0;
 };
 
+/// Where a scan goes on behind what is kept, with too few points to show anything.
+struct ThinEnd {
+  std::uint64_t points = 0;
+  int cells = 0;  ///< how far it goes on, in tile edges
+};
+
+struct KeptCells {
+  std::vector<KeptTile> tiles;  ///< by tile, i.e. by (iy, ix)
+  ThinEnd thin;                 ///< not kept
+};
+
 /// Tells the building from ghosts: far, sparse cells, as mirrors, glass and the sky put them hundreds of
 /// metres away. A cell is well filled when it holds at least 1 % of the points of a typical cell (the one
-/// with the median point). Well-filled cells less than two cells apart hang together; such a group is kept
-/// when it has at least 1 % of the points of the largest. Other cells are kept when they touch a kept one.
-/// Sorted by tile, i.e. by (iy, ix).
-std::vector<KeptTile> without_ghosts(std::vector<CellCount> cells);
+/// with the median point), or 30 points and the share that the beams of one scanner have so far from the next
+/// dense cell (1/2 % over the third power of the distance in cells). Well-filled cells less than two cells
+/// apart hang together; such a group is kept when it has at least 1 % of the points of the largest, or in
+/// eight cells half as many as a typical cell: a gatehouse as dense as the hall is a building. Other cells
+/// are kept when they touch a kept one.
+KeptCells without_ghosts(const std::vector<CellCount>& cells);
 
 }  // namespace roomcut

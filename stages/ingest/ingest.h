@@ -19,7 +19,9 @@ namespace roomcut {
 struct IngestCounts {
   std::uint64_t read = 0;
   std::uint64_t no_returns = 0;  ///< dropped: exactly 0 0 0, a beam that met nothing
+  std::uint64_t invalid = 0;     ///< dropped: marked as invalid or withheld in the file
   std::uint64_t not_finite = 0;  ///< dropped: NaN or infinite
+  std::uint64_t thin = 0;        ///< dropped: behind the rest, too few to show a wall
   std::uint64_t ghosts = 0;      ///< dropped: far from the building, in sparse cells
   std::uint64_t kept = 0;
 };
@@ -43,6 +45,7 @@ struct TiledScan {
   std::unique_ptr<TileStore> store;
   std::vector<KeptTile> tiles;  ///< by (iy, ix)
   IngestCounts counts;
+  double thin_reach_m = 0;        ///< how far the scan goes on behind what is kept, in points counted as thin
   double step_m = 0;              ///< quantisation of the coordinates
   std::uint64_t band_points = 0;  ///< as in ScanSettings
 };

@@ -2,6 +2,7 @@
 #include "stages/ingest/ingest_io.h"
 
 #include <charconv>
+#include <cmath>
 #include <future>
 
 #include "common/artefact/sha256.h"
@@ -10,6 +11,7 @@
 #include "stages/ingest/ingest.h"
 #include "stages/ingest/scan_stations.h"
 #include "stages/ingest/text_columns.h"
+#include "stages/ingest/up_axis.h"
 
 namespace roomcut {
 
@@ -28,6 +30,12 @@ std::future<std::string> start_digest(const StageRun& run) {
   return std::async(std::launch::async, [path = run.input("scan")] { return sha256_of_file(path); });
 }
 
+/// The build folder: this program lies in its bin/.
+std::filesystem::path program_folder() {
+  std::error_code unknown;
+  return std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path().parent_path();
+}
+
 std::uint64_t memory_bytes(const StageRun& run) {
   const std::string& text = run.option("memory-mib");
   std::uint64_t mib = 0;
@@ -44,7 +52,9 @@ void report(StageRun& run, const TiledScan& scan, const SurfaceSummary& summary,
   run.count("points read", static_cast<double>(counts.read));
   run.count("kept", static_cast<double>(counts.kept));
   run.count("no return", static_cast<double>(counts.no_returns));
+  run.count("invalid", static_cast<double>(counts.invalid));
   run.count("not finite", static_cast<double>(counts.not_finite));
+  run.count("thin", static_cast<double>(counts.thin));
   run.count("ghosts", static_cast<double>(counts.ghosts));
   run.count("noise", 1000 * header.noise_m, "mm");
   run.count("density", header.density, "per m^2");
@@ -53,8 +63,16 @@ void report(StageRun& run, const TiledScan& scan, const SurfaceSummary& summary,
     run.warn(std::to_string(counts.no_returns) +
              " points are exactly 0 0 0, beams without return, and were dropped");
   }
+  if (counts.invalid > 0) {
+    run.warn(std::to_string(counts.invalid) + " points are marked as invalid in the file and were dropped");
+  }
   if (counts.not_finite > 0) {
     run.warn(std::to_string(counts.not_finite) + " points with NaN or infinite coordinates were dropped");
+  }
+  if (counts.thin > 0) {
+    run.warn("the model ends where the points get thin: about " +
+             std::to_string(std::lround(scan.thin_reach_m)) + " m of scan with only " +
+             std::to_string(counts.thin) + " points were left out");
   }
   if (counts.ghosts > 0) {
     run.warn(std::to_string(counts.ghosts) + " ghosts, sparse points far from the building, were dropped");
@@ -77,10 +95,10 @@ void report(StageRun& run, const TiledScan& scan, const SurfaceSummary& summary,
 StageInfo ingest_info() {
   StageInfo info;
   info.name = "ingest";
-  info.revision = 3;
+  info.revision = 4;
   info.summary = "Reads a raw scan; finds surface class, azimuth, noise and density from sums in voxels.";
   info.inputs = {
-      {"scan", "", "The scan: PLY, PCD, PTX or text (.xyz .txt .csv .pts .asc)"},
+      {"scan", "", "The scan: PLY, E57, LAS, LAZ, PCD, PTX or text (.xyz .txt .csv .pts .asc)"},
       {"stations", "", "Scanner positions as text, x y z on each line, in the scan's unit and axes", true}};
   info.inputs[0].by_bytes = true;
   info.inputs[1].by_bytes = true;
@@ -111,7 +129,7 @@ void run_ingest(StageRun& run, const IngestParams& params) {
   const std::filesystem::path folder =
       output.has_parent_path() ? output.parent_path() : std::filesystem::path(".");
   const std::unique_ptr<ScanReader> reader =
-      open_scan(run.input("scan"), {parse_columns(run.option("columns")), folder});
+      open_scan(run.input("scan"), {parse_columns(run.option("columns")), folder, program_folder()});
   for (const std::string& note : reader->notes()) {
     run.note(note);
   }
@@ -132,13 +150,23 @@ void run_ingest(StageRun& run, const IngestParams& params) {
 
   CloudWriter writer(output, run.provenance(), header_of(scan, stations, params));
   Progress classing = run.progress("classing points", scan.counts.kept);
+  AxisAreas areas;
   const SurfaceSummary summary = class_tiles(
-      scan, params, [&](const CloudTile& part, bool last) { writer.append(part, last); },
+      scan, params,
+      [&](const CloudTile& part, bool last) {
+        areas.add(part);
+        writer.append(part, last);
+      },
       [&](std::uint64_t points) { classing.advance(points); });
   writer.header().noise_m = noise_of(summary.estimates, scan.step_m);
   writer.header().density = density_of(summary.estimates);
   writer.finish();
   report(run, scan, summary, writer.header());
+  const CloudHeader& header = writer.header();
+  if (const std::string question = upright_floors(areas, header.bbox_min, header.bbox_max, run.option("up"));
+      !question.empty()) {
+    run.warn(question);
+  }
 }
 
 }  // namespace roomcut

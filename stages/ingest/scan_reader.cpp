@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "common/errors/codes.h"
+#include "stages/ingest/decoded_scan.h"
 #include "stages/ingest/pcd_header.h"
 #include "stages/ingest/scan_pcd.h"
 #include "stages/ingest/scan_ply.h"
@@ -22,9 +23,7 @@ struct ForeignFormat {
   const char* name;
 };
 
-constexpr std::array<ForeignFormat, 7> kForeign{{{"LASF", "a LAS/LAZ file"},
-                                                 {"ASTM-E57", "an E57 file"},
-                                                 {"\x89HDF", "an HDF5 file"},
+constexpr std::array<ForeignFormat, 5> kForeign{{{"\x89HDF", "an HDF5 file"},
                                                  {"PK\x03\x04", "a ZIP archive"},
                                                  {"\x1f\x8b", "a gzip archive"},
                                                  {"OFF", "an OFF mesh"},
@@ -74,6 +73,9 @@ std::unique_ptr<ScanReader> open_known(const std::shared_ptr<const ScanFile>& fi
   const std::string_view head(bytes.data(), text->read(0, bytes.data(), bytes.size()));
   if (is_ply(head)) {
     return open_ply(file, text);
+  }
+  if (const char* decoder = decoder_of(head)) {
+    return open_decoded(*file, decoder, options);
   }
   for (const ForeignFormat& foreign : kForeign) {
     if (head.starts_with(foreign.magic)) {

@@ -26,7 +26,14 @@ struct ScanBlock {
 /// What `open_scan` may be told.
 struct ScanOptions {
   std::vector<int> columns;  ///< what each column of a text is (parse_columns()); empty: to be found out
-  std::filesystem::path scratch_folder;  ///< for what has to be decoded first
+  std::filesystem::path scratch_folder{};  ///< for what has to be decoded first
+  std::filesystem::path decoders{};        ///< folder with python/ and decoders/ (decoded_scan.h)
+};
+
+/// Points that a decoder has left out already.
+struct DroppedPoints {
+  std::uint64_t no_returns = 0;  ///< beams that met nothing
+  std::uint64_t invalid = 0;     ///< marked so in the file, withheld, or not finite
 };
 
 /// A scan cut into blocks that can be read in any order and by several threads. Block order is file order.
@@ -51,10 +58,14 @@ class ScanReader {
   /// How the file was understood.
   const std::vector<std::string>& notes() const { return notes_; }
   void note(const std::string& text) { notes_.push_back(text); }
+  /// What is in no block although it stands in the file.
+  const DroppedPoints& dropped() const { return dropped_; }
+  void drop(const DroppedPoints& points) { dropped_ = points; }
 
  private:
   std::vector<std::string> warnings_;
   std::vector<std::string> notes_;
+  DroppedPoints dropped_;
 };
 
 /// Finds out the format by the content. Errors: those of ScanFile, kScanFormat, kScanTruncated (the header

@@ -114,7 +114,8 @@ void check_extent(const TiledScan& scan, std::uint64_t far, const ScanSettings& 
                   double tile_edge_m) {
   const IngestCounts& counts = scan.counts;
   const std::string hint = "check the unit (--unit m, cm, mm, ft) and the coordinates";
-  if (static_cast<double>(far) > kLargestFarShare * static_cast<double>(counts.kept + counts.ghosts)) {
+  if (static_cast<double>(far) >
+      kLargestFarShare * static_cast<double>(counts.kept + counts.thin + counts.ghosts)) {
     throw StageError(errors::kScanExtent, settings.name,
                      std::to_string(far) + " of " + std::to_string(counts.read) +
                          " points lie kilometres from the others, taken as " + settings.unit,
@@ -145,7 +146,7 @@ void check_step(double step_m, const ScanSettings& settings) {
   if (step_m > kCoarsest_m) {
     throw StageError(errors::kScanTooCoarse, settings.name,
                      "the coordinates are rounded to steps of " + std::to_string(std::lround(1000 * step_m)) +
-                         " mm, too coarse for a model: so far from the origin 32-bit numbers are no finer",
+                         " mm, too coarse for a model; 32-bit numbers are so far from the origin",
                      "export the scan with 64-bit coordinates (double), or with an offset subtracted before");
   }
 }
@@ -200,7 +201,10 @@ TiledScan tile_scan(const ScanReader& reader, const ScanSettings& settings, cons
     far += block.far;
   }
   reader.check_total(counts.read);
-  const std::uint64_t real = counts.read - counts.no_returns - counts.not_finite;
+  counts.no_returns += reader.dropped().no_returns;
+  counts.invalid = reader.dropped().invalid;
+  counts.read += reader.dropped().no_returns + counts.invalid;
+  const std::uint64_t real = counts.read - counts.no_returns - counts.invalid - counts.not_finite;
   if (real == 0) {
     throw StageError(errors::kScanNoPoints, settings.name,
                      counts.read == 0 ? "there is not one point in it"
@@ -208,11 +212,14 @@ TiledScan tile_scan(const ScanReader& reader, const ScanSettings& settings, cons
                                             " points has finite coordinates other than 0 0 0",
                      "export the scan again");
   }
-  scan.tiles = without_ghosts(scan.store->index_tiles());
+  KeptCells kept = without_ghosts(scan.store->index_tiles());
+  scan.tiles = std::move(kept.tiles);
+  counts.thin = kept.thin.points;
+  scan.thin_reach_m = kept.thin.cells * scale.tile_edge_m();
   for (const KeptTile& tile : scan.tiles) {
     counts.kept += tile.points;
   }
-  counts.ghosts = real - counts.kept;
+  counts.ghosts = real - counts.kept - counts.thin;
   check_extent(scan, far, settings, scale.tile_edge_m());
   check_size(scan, settings);
   return scan;

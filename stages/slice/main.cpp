@@ -3,6 +3,7 @@
 #include "common/cloud/cloud_io.h"
 #include "common/slices/slices_io.h"
 #include "stages/slice/slice.h"
+#include "stages/slice/unit_question.h"
 
 namespace {
 
@@ -40,6 +41,7 @@ void report(StageRun& run, const SliceResult& result) {
   run.count("levels", static_cast<double>(slices.levels.size()));
   run.count("surfaces too small for a level", static_cast<double>(result.rejected.size()));
   run.count("wall cells", static_cast<double>(cells));
+  if (const std::string question = unit_question(slices); !question.empty()) run.warn(question);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "common/errors/codes.h"
 #include "stages/synthesize/plan.h"
+#include "stages/synthesize/scene_limits.h"
 #include "stages/synthesize/stations.h"
 
 namespace roomcut {
@@ -64,7 +65,7 @@ Building Placer::place() {
   for (std::size_t i = 0; i < scene_.doors.size(); ++i) add_door(scene_.doors[i], i);
   for (std::size_t i = 0; i < scene_.windows.size(); ++i) add_window(scene_.windows[i], i);
   for (std::size_t i = 0; i < scene_.shafts.size(); ++i) add_shaft(scene_.shafts[i], i);
-  if (!problems_.empty()) throw StageError(problems_);
+  if (!problems_.empty()) refuse_scene(problems_);
   building_.furniture = scene_.furniture;
   if (scene_.clutter_per_m2 > 0) furnish(scene_, building_);
   place_stations(scene_, building_);

@@ -3,8 +3,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
+#include "common/errors/codes.h"
 #include "common/random/counter_random.h"
+#include "stages/synthesize/scene_limits.h"
 
 namespace roomcut {
 
@@ -13,7 +17,7 @@ namespace {
 constexpr std::uint64_t kStream = 0x686f6c65;      // of the random numbers
 constexpr std::size_t kProbes = 20000;             // points that measure the covered share
 constexpr double kSmallest = 0.2, kLargest = 0.8;  // radii [m]
-constexpr std::size_t kMostPatches = 1000000;
+constexpr double kPi = std::numbers::pi;
 
 }  // namespace
 
@@ -46,10 +50,17 @@ Holes::Holes(const Scene& scene, const Building& building, const Surfaces& surfa
     const double a = draw();
     return point_in(triangle, a, draw());
   };
+  const double patch_m2 = kPi / 3 * (kLargest * kLargest + kLargest * kSmallest + kSmallest * kSmallest);
+  if (-std::log(1 - scene.holes) * areas.total() / patch_m2 > scene_limits::kPatches) {
+    throw StageError(errors::kSceneInvalid, scene.name,
+                     "so large a surface would take more than " +
+                         std::to_string(std::llround(scene_limits::kPatches)) + " round holes",
+                     "lower \"holes\"; copies made by \"repeat\" share theirs");
+  }
   std::vector<Vec3> open;
   for (std::size_t i = 0; i < kProbes && scene.holes > 0; ++i) open.push_back(draw_point());
   const auto wanted = static_cast<std::size_t>((1 - scene.holes) * kProbes);
-  while (open.size() > wanted && patches_.size() < kMostPatches) {
+  while (open.size() > wanted && static_cast<double>(patches_.size()) < 2 * scene_limits::kPatches) {
     const Vec3 centre = draw_point();
     const double radius = kSmallest + (kLargest - kSmallest) * draw();
     const Vec2 reach = Vec2::Constant(radius);

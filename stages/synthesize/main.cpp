@@ -3,6 +3,7 @@
 #include "common/cli/run_stage.h"
 #include "stages/synthesize/params.h"
 #include "stages/synthesize/scene_json.h"
+#include "stages/synthesize/scene_limits.h"
 #include "stages/synthesize/synthesize_io.h"
 
 namespace {
@@ -18,6 +19,7 @@ void override_scene(const SynthesizeParams& params, Scene& scene) {
 void run(StageRun& stage, const SynthesizeParams& params) {
   Scene scene = read_scene(stage.input("scene"));
   override_scene(params, scene);
+  check_limits(scene);
   const Building building = place(scene);
   const TriangleMesh truth = make_truth(scene, building);
   const Surfaces surfaces(scene, building, truth);

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <stdexcept>
 #include <utility>
+
+#include "common/errors/codes.h"
 
 namespace roomcut {
 
@@ -32,11 +33,18 @@ class Cutter {
       sort_segments();
       if (!cut_once()) return {vertices_, segments_};
     }
-    throw std::logic_error("a floor plan could not be cut into pieces");
+    too_tangled();
   }
 
  private:
   using Segment = std::array<std::int32_t, 2>;
+  static constexpr std::size_t kMostVertices = 200000;  // twice the corners of the largest scene
+
+  [[noreturn]] static void too_tangled() {
+    throw StageError(errors::kSceneInvalid, "the plans of the rooms",
+                     "they cross each other too often, or too close together, to be cut into pieces",
+                     "rooms may not overlap: leave a wall between them");
+  }
 
   /// The corner at p: a known one within the tolerance, or a new one.
   std::int32_t vertex(const Vec2& p) {
@@ -51,6 +59,7 @@ class Cutter {
         }
       }
     }
+    if (vertices_.size() >= kMostVertices) too_tangled();
     const auto index = static_cast<std::int32_t>(vertices_.size());
     vertices_.push_back(p);
     grid_.emplace(std::pair{x, y}, index);

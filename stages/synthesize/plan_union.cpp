@@ -14,6 +14,7 @@
 #include "common/errors/codes.h"
 #include "stages/synthesize/plan.h"
 #include "stages/synthesize/plan_graph.h"
+#include "stages/synthesize/scene_limits.h"
 
 namespace roomcut {
 
@@ -127,6 +128,13 @@ void Uniter::collect_heights() {
   }
   std::sort(result_.heights.begin(), result_.heights.end());
   result_.heights.erase(std::unique(result_.heights.begin(), result_.heights.end()), result_.heights.end());
+  const double layers = static_cast<double>(result_.heights.size() * building_.prisms.size());
+  if (layers > scene_limits::kLayers) {
+    throw StageError(errors::kSceneInvalid, scene_.name,
+                     std::to_string(result_.heights.size()) + " different heights of " +
+                         std::to_string(building_.prisms.size()) + " rooms and openings are too many",
+                     "give the rooms of a storey the same floor and ceiling");
+  }
 }
 
 /// The overlay of all plans; every triangle gets the index of its piece.

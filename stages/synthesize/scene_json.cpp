@@ -9,6 +9,7 @@
 #include "common/artefact/json.h"
 #include "stages/synthesize/families.h"
 #include "stages/synthesize/plan.h"
+#include "stages/synthesize/scene_limits.h"
 #include "stages/synthesize/scene_reader.h"
 
 namespace roomcut {
@@ -72,7 +73,7 @@ Scene SceneParser::parse(const json& root) {
     if (const json* value = node.member("repeat")) parse_repeat(*value, node.path("repeat"));
     if (scene_.rooms.empty() && problems_.empty()) node.problem("there is no room");
   }
-  if (!problems_.empty()) throw StageError(problems_);
+  if (!problems_.empty()) refuse_scene(problems_);
   return scene_;
 }
 
@@ -112,7 +113,8 @@ void SceneParser::parse_room(const json& value, const std::string& path, double 
     room.polygon = node.polygon("polygon");
   }
   if (!room_by_name_.emplace(room.name, static_cast<int>(scene_.rooms.size())).second) {
-    node.problem("a second room named \"" + room.name + "\"", "room names are unique in the whole scene");
+    node.problem("a second room named \"" + shown(room.name) + "\"",
+                 "room names are unique in the whole scene");
   }
   scene_.rooms.push_back(std::move(room));
 }
@@ -141,7 +143,7 @@ int SceneParser::room_index(SceneNode& node, const json* name) {
   if (name != nullptr && name->is_string()) {
     const auto found = room_by_name_.find(name->get<std::string>());
     if (found != room_by_name_.end()) return found->second;
-    node.problem("there is no room named \"" + name->get<std::string>() + "\"");
+    node.problem("there is no room named \"" + shown(name->get<std::string>()) + "\"");
   } else {
     node.problem("a room's name is missing");
   }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages/synthesize/scene_reader.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "stages/synthesize/plan.h"
+#include "stages/synthesize/scene_limits.h"
 
 namespace roomcut {
 
@@ -52,6 +54,9 @@ void normalise(Polygon2& corners, std::vector<std::size_t>& side) {
     side.pop_back();
   }
   if (corners.size() < 3) throw std::invalid_argument("a polygon needs three corners");
+  if (corners.size() > scene_limits::kCorners) {
+    throw std::invalid_argument("more than " + std::to_string(scene_limits::kCorners) + " corners");
+  }
   for (std::size_t i = 0; i < corners.size(); ++i) {
     if ((corners[i] - corners[(i + 1) % corners.size()]).norm() < 1e-3) {
       throw std::invalid_argument("two neighbouring corners are less than 1 mm apart");
@@ -74,7 +79,8 @@ SceneNode::SceneNode(const json& value, std::string path, std::vector<Problem>& 
 SceneNode::~SceneNode() {
   if (!value_.is_object()) return;
   for (const auto& [key, unused] : value_.items()) {
-    if (!used_.contains(key) && key != "note") problem("unknown key \"" + key + "\"", "see schemas/scene.md");
+    if (!used_.contains(key) && key != "note")
+      problem("unknown key \"" + shown(key) + "\"", "see schemas/scene.md");
   }
 }
 
@@ -124,8 +130,12 @@ bool SceneNode::boolean(const std::string& key, bool fallback) {
 std::string SceneNode::text(const std::string& key, const std::string& fallback) {
   const json* value = member(key);
   if (value == nullptr) return fallback;
-  if (!value->is_string()) problem("\"" + key + "\" must be text");
-  return value->is_string() ? value->get<std::string>() : fallback;
+  const std::string content = value->is_string() ? value->get<std::string>() : "\n";
+  const bool plain = std::none_of(content.begin(), content.end(), [](unsigned char c) { return c < ' '; });
+  if (plain && content.size() <= scene_limits::kText) return content;
+  problem("\"" + key + "\" must be text of one line, at most " + std::to_string(scene_limits::kText) +
+          " characters");
+  return fallback;
 }
 
 std::string SceneNode::choice(const std::string& key, const std::string& fallback,

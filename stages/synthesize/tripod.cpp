@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "common/errors/codes.h"
+#include "stages/synthesize/scene_limits.h"
 
 namespace roomcut {
 
@@ -32,8 +33,8 @@ TripodSource::TripodSource(const Scene& scene, const Building& building, const S
   }
   set_step(kTrialStep);
   const double share = return_share();
-  if (share <= 0) {
-    throw StageError(errors::kSceneInvalid, scene.name, "no beam of any scanner returns",
+  if (share < scene_limits::kLeastShare) {
+    throw StageError(errors::kSceneInvalid, scene.name, "hardly any beam of the scanners returns",
                      "put sampling.stations inside the rooms");
   }
   const double scans = static_cast<double>(copies(scene) * building.stations.size());

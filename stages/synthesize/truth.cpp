@@ -8,6 +8,7 @@
 
 #include "common/errors/codes.h"
 #include "stages/synthesize/plan_union.h"
+#include "stages/synthesize/scene_limits.h"
 
 namespace roomcut {
 
@@ -126,7 +127,7 @@ std::string at(const Vec3& p) {
 TriangleMesh make_truth(const Scene& scene, const Building& building) {
   std::vector<Problem> problems;
   const PlanUnion plan = unite(scene, building, problems);
-  if (!problems.empty()) throw StageError(problems);
+  if (!problems.empty()) refuse_scene(problems);
   TriangleMesh mesh = Extruder(plan).extrude();
   const std::string defect = find_defect(mesh);
   if (!defect.empty()) {

@@ -80,7 +80,9 @@ done
 head -c 3000 /bin/ls > "$place/positions.txt"
 if mk run STATIONS="$place/positions.txt"; then not_ok "STATIONS=program is refused"; else says "STATIONS=program is refused" '^error\[C0'; fi
 says "… said to be forgotten" '^note: .* is forgotten'
+mark
 check "… and forgotten" mk run
+check "… nothing runs" ran_exactly ""
 digests "$work" > "$place/now"
 check "… the result is the one of before" cmp "$place/first" "$place/now"
 printf '2.5 2.0 1.6\n' > "$place/good.txt"

@@ -168,6 +168,14 @@ mark
 mk run
 check "… a single one too" ran_exactly report
 
+# Parameters that are damaged are asked for again.
+mark
+for file in "$work"/params/*.json; do damage "$file"; done
+check "damaged parameters" mk run
+check "… run nothing" ran_exactly ""
+digests "$work" > "$place/now"
+check "… and change nothing" cmp "$place/first" "$place/now"
+
 # Stamps of an older roomcut had no inputs.
 for stamp in "$work"/stamps/*; do sed -n 's/^out \([^ ]*\) [^ ]* /\1 1795893684 327142387 /p' "$stamp" > "$place/old" && cp "$place/old" "$stamp"; done
 check "stamps of an older roomcut" mk run

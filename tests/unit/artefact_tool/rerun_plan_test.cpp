@@ -150,6 +150,16 @@ TEST_F(Plan, a_stage_waits_for_the_nearest_stale_stages_before_it) {
   EXPECT_TRUE(waits_for(pipeline, {})[4].empty());
 }
 
+TEST_F(Plan, a_stage_whose_reader_was_killed_before_it_read_is_named) {
+  EXPECT_EQ(differently_read(pipeline), Words{});
+  Stamp cut = read_stamp("stamps/cut").stamp;
+  cut.outputs[0].sha256 = "other";
+  settle_stamp("stamps/cut", cut);  // refine and extract have not run since
+  EXPECT_EQ(differently_read(pipeline), (Words{"cut", "cut"}));
+  withdraw_stamp("stamps/cut");  // also when it begins again
+  EXPECT_EQ(differently_read(pipeline), (Words{"cut", "cut"}));
+}
+
 TEST_F(Plan, a_goal_needs_what_comes_before_it_only) {
   Words needed;
   for (const PipelineStage& stage : needed_for(pipeline, {"refine"})) {

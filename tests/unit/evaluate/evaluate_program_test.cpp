@@ -151,5 +151,33 @@ TEST_F(EvaluateProgram, BadMeshesAndDescriptionsAreRefused) {
   expect_refused("M03", "--truth open.off");
 }
 
+TEST_F(EvaluateProgram, ATruthInMillimetresOrElsewhereIsRefusedAndTheUnitNamed) {
+  TriangleMesh truth = box({0, 0, 0}, {8, 3, 2.5});
+  write("elsewhere.off", off_text(truth, {500000, 5900000, 40}));
+  for (Vec3& p : truth.vertices) p *= 1000;
+  write("mm.off", off_text(truth, {0, 0, 0}));
+  expect_refused("M04", "--truth mm.off");
+  EXPECT_NE(read("stderr").find("millimetres"), std::string::npos) << read("stderr");
+  expect_refused("M04", "--truth elsewhere.off");
+  EXPECT_NE(read("stderr").find("do not meet"), std::string::npos) << read("stderr");
+}
+
+TEST_F(EvaluateProgram, AFarVertexIsNamed) {
+  std::string truth = read("truth.off");
+  const std::size_t first = truth.find('\n', truth.find('\n') + 1) + 1;
+  for (const char* far : {"1e6", "-1e9", "1e308"}) {
+    write("far.off", std::string(truth).replace(first, truth.find(' ', first) - first, far));
+    expect_refused("M02", "--truth far.off");
+    EXPECT_NE(read("stderr").find("vertex 0"), std::string::npos) << read("stderr");
+  }
+}
+
+TEST_F(EvaluateProgram, ASpacingThatAsksForTooManySamplesIsRefused) {
+  EXPECT_EQ(run("--truth truth.off --set sample_spacing_m=0.001"), 4);
+  EXPECT_NE(read("stderr").find("error[N07] sample_spacing_m"), std::string::npos) << read("stderr");
+  EXPECT_EQ(run("--truth truth.off --set column_spacing_m=0.001"), 4);
+  EXPECT_NE(read("stderr").find("error[N07] column_spacing_m"), std::string::npos) << read("stderr");
+}
+
 }  // namespace
 }  // namespace roomcut

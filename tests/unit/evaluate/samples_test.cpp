@@ -55,5 +55,26 @@ TEST(Samples, DependOnTheSeedAloneAndCornersAreAmongThem) {
   }
 }
 
+TEST(Samples, AreCountedBeforeTheyAreMade) {
+  const TriangleMesh mesh = box({0, 0, 0}, {30, 20, 3});
+  for (const double spacing : {0.1, 0.5, 7.0}) {
+    const auto made = static_cast<double>(sample_surface(mesh, spacing, 1).size());
+    EXPECT_GE(sample_count(mesh, spacing), made);
+    EXPECT_LE(sample_count(mesh, spacing), made + 3 * 12);
+  }
+}
+
+TEST(Samples, TheSpacingGrowsWithWhatTheBudgetAffords) {
+  TriangleMesh mesh = box({0, 0, 0}, {3, 2, 1});
+  EXPECT_EQ(affordable_spacing(mesh, 0.1, 1e6), 0.1);
+  for (Vec3& p : mesh.vertices) p *= 1000;  // millimetres: 2.2e9 samples at 0.1 m
+  const double spacing = affordable_spacing(mesh, 0.1, 1e5);
+  EXPECT_LE(sample_surface(mesh, spacing, 1).size(), 100000U);
+  EXPECT_GE(sample_surface(mesh, spacing, 1).size(), 20000U);
+  mesh.vertices[0].x() = -4e5;  // a needle: long sides, little area
+  EXPECT_LE(sample_surface(mesh, affordable_spacing(mesh, 0.1, 1e5), 1).size(), 100000U);
+  EXPECT_GT(affordable_spacing(mesh, 0.1, 0), 1e5);  // ends all the same
+}
+
 }  // namespace
 }  // namespace roomcut

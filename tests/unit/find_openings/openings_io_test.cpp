@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <sstream>
 
 #include "common/errors/codes.h"
 
@@ -44,6 +45,27 @@ class OpeningsIo : public testing::Test {
     return "";
   }
 };
+
+TEST_F(OpeningsIo, AChangedOrImpossibleNumberIsDamage) {
+  write_openings(path_, two(), {});
+  std::ostringstream held;
+  held << std::ifstream(path_).rdbuf();
+  const auto code_with = [&](const std::string& from, const std::string& to) {
+    std::string text = held.str();
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+    std::ofstream(path_) << text;
+    return code();
+  };
+  EXPECT_EQ(code_with("2.050000", "2.050000"), "");
+  EXPECT_EQ(code_with("2.050000", "2.150000"), "A02");
+  EXPECT_EQ(code_with("2.050000", "1e308"), "A02");
+  EXPECT_EQ(code_with("2.050000", "1e999"), "A02");
+  EXPECT_EQ(code_with(R"("points": 100)", R"("points": -1)"), "A02");
+  EXPECT_EQ(code_with(R"("points": 100)", R"("points": "many")"), "A02");
+  EXPECT_EQ(code_with("2.050000", std::string(1000, '[') + std::string(1000, ']')), "A02");
+}
 
 TEST_F(OpeningsIo, WhatIsWrittenIsReadSortedAndRounded) {
   EXPECT_TRUE(write_openings(path_, two(), {}));

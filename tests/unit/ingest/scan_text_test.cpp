@@ -153,7 +153,14 @@ TEST_F(ScanText, refuses_what_is_no_point_cloud) {
   EXPECT_EQ(code_of_scan(file("grid.asc", "ncols 4\nnrows 4\nxllcorner 0\n1 2 3 4\n")), "C04");
   EXPECT_EQ(code_of_scan(file("scan.ptx", "2\n2\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n")), "C04");
   EXPECT_EQ(code_of_scan(file("binary.dat", std::string("ab\0cd", 5))), "C04");
-  EXPECT_EQ(code_of_scan(file("scan.las", "LASF and more")), "C04");
+}
+
+TEST_F(ScanText, says_what_to_run_when_there_is_no_environment_to_decode_a_format) {
+  for (const std::string bytes : {"LASF and more", "ASTM-E57 and more"}) {
+    std::string text;
+    EXPECT_EQ(code_of_scan(file("scan.bin", bytes), &text), "C12");
+    EXPECT_NE(text.find("make deps"), std::string::npos) << text;
+  }
 }
 
 TEST_F(ScanText, refuses_a_header_without_points) {

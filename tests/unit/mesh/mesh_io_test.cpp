@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 
 #include "common/errors/codes.h"
@@ -99,6 +101,65 @@ TEST(MeshIo, BadFilesAreFormatErrors) {
   const std::string whole = ply_bytes(box({0, 0, 0}, {1, 1, 1}), {0, 0, 0}, {});
   for (const std::size_t size : {whole.size() - 1, whole.size() / 2, std::size_t{60}, std::size_t{4}}) {
     EXPECT_EQ(error_id(whole.substr(0, size), "cut.ply"), "M02") << size;
+  }
+}
+
+TEST(MeshIo, VerticesThatAreNoPlacesOfABuildingAreFormatErrors) {
+  for (const char* far : {"1e308", "-1e308", "1e11", "inf", "nan", "600000"}) {
+    EXPECT_EQ(error_id(std::string("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 ") + far + "\n3 0 1 2\n", "a.off"), "M02")
+        << far;
+    EXPECT_EQ(error_id(std::string("v 0 0 0\nv 1 0 0\nv 0 1 ") + far + "\nf 1 2 3\n", "a.obj"), "M02") << far;
+    EXPECT_EQ(
+        error_id(std::string(
+                     "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
+                     "property double z\nelement face 1\nproperty list uchar int vertex_index\nend_header\n"
+                     "0 0 0\n1 0 0\n0 1 ") +
+                     far + "\n3 0 1 2\n",
+                 "a.ply"),
+        "M02")
+        << far;
+  }
+  EXPECT_EQ(
+      error_id("OFF\n3 1 0\n500000 5900000 40\n500001 5900000 40\n500000 5900001 40\n3 0 1 2\n", "utm.off"),
+      "none");
+}
+
+TEST(MeshIo, NumbersOfAPlyThatAreNoIndicesAreFormatErrors) {
+  const auto ply = [](const char* face_properties, const std::string& face,
+                      const char* list = "list float double") {
+    return std::string(
+               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+               "z\n"
+               "element face 1\nproperty ") +
+           list + " vertex_indices\n" + face_properties + "end_header\n0 0 0\n1 0 0\n0 1 0\n" + face + "\n";
+  };
+  EXPECT_EQ(error_id(ply("", "3 0 1 2"), "a.ply"), "none");
+  for (const char* face : {"3 0 1 3", "3 0 1 -1", "3 0 1 1e300", "3 0 1 0.5", "1e300 0 1 2", "-3 0 1 2",
+                           "2.5 0 1 2", "4000000000 0 1 2"}) {
+    EXPECT_EQ(error_id(ply("", face), "a.ply"), "M02") << face;
+  }
+  const char* extras = "property double kind\nproperty double storey\nproperty double region\n";
+  EXPECT_EQ(error_id(ply(extras, "3 0 1 2 2 -1 2147483647"), "a.ply"), "none");
+  for (const char* face : {"3 0 1 2 4 0 0", "3 0 1 2 -1 0 0", "3 0 1 2 0 32768 0", "3 0 1 2 0 0 2147483648",
+                           "3 0 1 2 1e308 0 0", "3 0 1 2 0.5 0 0"}) {
+    EXPECT_EQ(error_id(ply(extras, face), "a.ply"), "M02") << face;
+  }
+  std::string binary =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty "
+      "float z\n"
+      "element face 1\nproperty list float float vertex_indices\nend_header\n";
+  const auto add = [&binary](std::initializer_list<float> values) {
+    for (const float v : values) binary.append(std::bit_cast<std::array<char, 4>>(v).data(), 4);
+  };
+  add({0, 0, 0, 1, 0, 0, 0, 1, 0});
+  const std::string head = binary;
+  for (const auto& face : {std::initializer_list<float>{3, 0, 1, NAN},
+                           {NAN, 0, 1, 2},
+                           {INFINITY, 0, 1, 2},
+                           {3, 0, 1, -INFINITY}}) {
+    binary = head;
+    add(face);
+    EXPECT_EQ(error_id(binary, "nan.ply"), "M02");
   }
 }
 

@@ -59,6 +59,27 @@ TEST(Stamp, that_names_files_outside_the_work_folder_is_refused) {
   }
 }
 
+TEST(Stamp, a_mark_is_left_when_a_payload_is_another_than_before_and_only_then) {
+  const WorkFolder folder;
+  const auto marked_by = [](const Stamp& stamp) {
+    unmark_changed("stamps/a");
+    withdraw_stamp("stamps/a");
+    settle_stamp("stamps/a", stamp);
+    return std::filesystem::exists("stamps/.a.changed");
+  };
+  Stamp stamp = kStamp;
+  EXPECT_TRUE(marked_by(stamp)) << "nothing of before to compare with";
+  EXPECT_FALSE(marked_by(stamp));
+  stamp.outputs[0].content = "other-bytes";
+  EXPECT_FALSE(marked_by(stamp)) << "the payload is as before";
+  stamp.outputs[0].sha256 = "57";
+  EXPECT_TRUE(marked_by(stamp));
+  withdraw_stamp("stamps/a");  // killed, and begun again
+  EXPECT_FALSE(marked_by(stamp));
+  stamp.outputs.push_back({"1", "new", "2"});
+  EXPECT_TRUE(marked_by(stamp));
+}
+
 TEST(ChangedInputs, are_those_with_another_digest_and_those_never_read) {
   const auto now = [](const std::string& name) { return name == "scan" ? "35" : "12"; };
   EXPECT_EQ(changed_inputs(kStamp, {"params/a.json", "scan", "new"}, now),

@@ -22,6 +22,7 @@ std::string complaints(const json& scene) {
     std::string text;
     for (const Problem& problem : error.problems()) {
       EXPECT_STREQ(problem.code.id, errors::kSceneInvalid.id);
+      EXPECT_FALSE(problem.hint.empty()) << problem.what;
       text += problem.where + " " + problem.what + "\n";
     }
     return text;

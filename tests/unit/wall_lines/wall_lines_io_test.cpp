@@ -7,6 +7,7 @@
 #include "common/artefact/artefact_check.h"
 #include "common/artefact/h5.h"
 #include "common/artefact/json.h"
+#include "common/artefact_digest/artefact_digest.h"
 #include "common/errors/codes.h"
 #include "common/errors/error.h"
 #include "common/wall_lines/compare_lines.h"
@@ -149,7 +150,39 @@ TEST(WallLinesIo, TheStrictReaderRefusesWhatAStageWouldNotWrite) {
   EXPECT_EQ(code_with("LineString", "Polygon"), errors::kArtefactDamaged.id);
   EXPECT_EQ(code_with("\"roomcut\"", "\"room\""), errors::kArtefactDamaged.id);
   EXPECT_EQ(code_with("[4.000000, 3.000000]", "[0.000000, 3.000000]"), errors::kArtefactDamaged.id);
+  EXPECT_EQ(code_with("4.000000, 3.000000", "1e308, 3.000000"), errors::kArtefactDamaged.id);
+  EXPECT_EQ(code_with("\"rms_m\": 0.004000", "\"rms_m\": 1e999"), errors::kArtefactDamaged.id);
+  EXPECT_EQ(code_with("\"levels\": [1,2]", "\"levels\": [1,2.5]"), errors::kArtefactDamaged.id);
+  EXPECT_EQ(
+      code_with("[1,2]}, \"geometry\"", std::string(200, '[') + std::string(200, ']') + "}, \"geometry\""),
+      errors::kArtefactDamaged.id);
   EXPECT_THROW(read_wall_lines(folder / "absent.geojson"), StageError);
+}
+
+TEST(WallLinesIo, AWallMovedInTheFileOfAStageIsRefusedAndTheUserSentToTheEdits) {
+  const Folder folder;
+  write_wall_lines(folder / "lines.geojson", example(), {});
+  std::string text = text_of(folder / "lines.geojson");
+  text.replace(text.find("4.000000, 3.000000"), 8, "4.100000");
+  try {
+    read_wall_lines(save(folder / "moved.geojson", text));
+    FAIL() << "believed";
+  } catch (const StageError& error) {
+    const Problem& problem = error.problems().front();
+    EXPECT_STREQ(problem.code.id, errors::kArtefactDamaged.id);
+    EXPECT_NE(problem.what.find("digest"), std::string::npos) << problem.what;
+    EXPECT_NE(problem.hint.find("make run"), std::string::npos) << problem.hint;
+    EXPECT_NE(problem.hint.find("edits/wall_lines.geojson"), std::string::npos) << problem.hint;
+  }
+  EXPECT_THROW(verified_artefact(folder / "moved.geojson"), StageError);
+  EXPECT_EQ(verified_artefact(folder / "lines.geojson").payload_sha256, wall_lines_payload_sha256(example()));
+}
+
+TEST(WallLinesIo, AFileThatIsNoArtefactIsVerifiedByItsBytes) {
+  const Folder folder;
+  const InputRecord record = verified_artefact(save(folder / "model.obj", "v 0 0 0\n"));
+  EXPECT_EQ(record.artefact, "");
+  EXPECT_EQ(record.payload_sha256, sha256_hex("v 0 0 0\n"));
 }
 
 TEST(WallLinesIo, NaNIsNeverWritten) {

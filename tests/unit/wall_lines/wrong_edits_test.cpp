@@ -58,6 +58,47 @@ TEST(WrongEdits, AllProblemsOfAFileAreListedAtOnceWithFeatureAndId) {
   EXPECT_NE(all.find("features[5]"), std::string::npos) << all;
 }
 
+/// A feature with one more property.
+std::string edit_with(const std::string& property) {
+  return R"({"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {)" + property +
+         R"(}, "geometry": {"type": "LineString", "coordinates": [[0, 0], [1, 0]]}}]})";
+}
+
+TEST(WrongEdits, DeepNestingIsAnErrorOfTheFileAndNotOfTheProgram) {
+  const Folder folder;
+  for (const std::string& nested : {std::string(50'000, '[') + std::string(50'000, ']'), [] {
+                                      std::string text = "1";
+                                      for (int i = 0; i < 3000; ++i) text = R"({"k": 1, "k": )" + text + "}";
+                                      return text;
+                                    }()}) {
+    const std::vector<Problem> problems =
+        problems_of(testing::save(folder / "deep.geojson", edit_with(R"("x": )" + nested)));
+    ASSERT_EQ(problems.size(), 1U);
+    EXPECT_STREQ(problems[0].code.id, "L01");
+    EXPECT_NE(problems[0].what.find("deeper"), std::string::npos) << problems[0].what;
+  }
+}
+
+TEST(WrongEdits, ManyRepeatedKeysAndLongValuesMakeFewAndShortMessages) {
+  const Folder folder;
+  std::string keys = R"("locked": ")" + std::string(1'000'000, 'x') + R"(")";
+  for (int i = 0; i < 10'000; ++i) keys += R"(, "k)" + std::to_string(i / 2) + R"(": 1)";
+  const std::vector<Problem> problems = problems_of(testing::save(folder / "keys.geojson", edit_with(keys)));
+  EXPECT_LE(problems.size(), 21U);
+  std::size_t bytes = 0;
+  for (const Problem& problem : problems) bytes += to_string(problem).size();
+  EXPECT_LT(bytes, 10'000U);
+}
+
+TEST(WrongEdits, HugeCoordinatesLieOutsideTheScan) {
+  const Folder folder;
+  std::string text = edit_with("");
+  text.replace(text.find("[1, 0]"), 6, "[1e308, -1e308]");
+  const std::vector<Problem> problems = problems_of(testing::save(folder / "huge.geojson", text));
+  ASSERT_FALSE(problems.empty());
+  EXPECT_STREQ(problems[0].code.id, "L08");
+}
+
 TEST(WrongEdits, TheCauseIsNamed) {
   EXPECT_NE(problems_of(kEdits / "L08_degrees.geojson")[0].what.find("degrees"), std::string::npos);
   EXPECT_NE(problems_of(kEdits / "L08_millimetres.geojson")[0].what.find("millimetres"), std::string::npos);

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Decodes a LAS or LAZ file for `ingest`, block by block. usage: las.py FILE
+
+LAS 1.0 to 1.5, point formats 0 to 10, the number of points from the field that counts; scale and offset applied in double; withheld
+points dropped and counted; the coordinate system as a note."""
+import os
+import struct
+
+import laspy
+import numpy
+
+import point_stream
+
+BLOCK = 1 << 17  # points
+MOST_IN_CHUNK = 1 << 24  # points of one LAZ chunk; writers use 50,000
+VARIABLE = 0xFFFFFFFF
+
+
+def record_of(header, user, number):
+    return next((vlr.record_data_bytes() for vlr in header.vlrs if vlr.user_id.strip("\0") == user and vlr.record_id == number), None)
+
+
+def coordinate_system(header):
+    text = record_of(header, "LASF_Projection", 2112)
+    if text:
+        return text.rstrip(b"\0").decode("utf-8", "replace")
+    keys = record_of(header, "LASF_Projection", 34735)
+    if not keys:
+        return None
+    values = struct.unpack(f"<{len(keys) // 2}H", keys[:len(keys) // 2 * 2])
+    codes = [values[i + 3] for i in range(4, len(values) - 3, 4) if values[i] in (2048, 3072) and values[i + 1] == 0]
+    return "EPSG:" + "+".join(map(str, codes[-1:])) if codes else None
+
+
+def check_plain(path, header):
+    """The points of an uncompressed file against its size: neither fewer nor more than promised."""
+    end = os.path.getsize(path)
+    if header.number_of_evlrs:
+        end = min(end, header.start_of_first_evlr) if header.start_of_first_evlr > header.offset_to_point_data else end
+    size = header.point_format.size
+    held = max(0, end - header.offset_to_point_data) // size
+    if held < header.point_count:
+        raise point_stream.ScanError("C05", f"the header promises {header.point_count} points, the file holds {held}")
+    if held > header.point_count and end - header.offset_to_point_data - header.point_count * size >= size:
+        raise point_stream.ScanError("C05", f"the header promises {header.point_count} points, the file holds {held}",
+                                     "export the scan again, or correct the count in its header")
+
+
+def check_chunks(header):
+    """LAZ decoders allocate whole chunks of the size that a header claims."""
+    laszip = record_of(header, "laszip encoded", 22204)
+    if laszip is None or len(laszip) < 16:
+        raise point_stream.ScanError("C04", "a compressed file without the record that says how")
+    chunk = struct.unpack_from("<I", laszip, 12)[0]
+    if chunk != VARIABLE and chunk > MOST_IN_CHUNK:
+        raise point_stream.ScanError("C04", f"chunks of {chunk} points: the header is damaged")
+
+
+def blocks(path):
+    """The points of a file, a block at a time: lazrs on all cores, LASzip for the compression that only it knows (version 4)."""
+    with laspy.open(path, laz_backend=laspy.LazBackend.LazrsParallel) as reader:
+        try:
+            yield from reader.chunk_iterator(BLOCK)
+            return
+        except Exception as error:
+            if "is not supported" not in str(error):
+                raise
+    with laspy.open(path, laz_backend=laspy.LazBackend.Laszip) as reader:
+        yield from reader.chunk_iterator(BLOCK)
+
+
+def decode(path, stream):
+    with laspy.open(path, read_evlrs=False) as reader:
+        header = reader.header
+    if header.are_points_compressed:
+        check_chunks(header)
+    else:
+        check_plain(path, header)
+    if header.point_count == 0:
+        raise point_stream.ScanError("C06", "the header promises no point")
+    scales, offsets = numpy.array(header.scales), numpy.array(header.offsets)
+    if not (numpy.isfinite(scales).all() and numpy.isfinite(offsets).all() and (scales != 0).all()):
+        raise point_stream.ScanError("C04", "its scale or offset is no number")
+    crs = coordinate_system(header)
+    if crs:
+        stream.note("coordinate system: " + " ".join(crs.split()))
+    read = 0
+    for block in blocks(path):
+        read += len(block)
+        withheld = numpy.asarray(block.withheld, bool)
+        stream.invalid += int(withheld.sum())
+        raw = numpy.stack((block.array["X"], block.array["Y"], block.array["Z"]), axis=1)
+        xyz = (raw if not withheld.any() else raw[~withheld]) * scales + offsets
+        stream.add(xyz)
+    if read != header.point_count:
+        raise point_stream.ScanError("C05", f"the header promises {header.point_count} points, the file holds {read}")
+
+
+if __name__ == "__main__":
+    point_stream.run(decode)

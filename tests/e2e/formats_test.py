@@ -1,0 +1,352 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""E57, LAS and LAZ: what the decoders give is what an independent reading gives, damaged files are errors, and the formats of one
+building give one cloud. Runs in the environment that `make deps` makes (BUILD/python); without it the test is skipped."""
+import json
+import math
+import os
+import re
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SOURCE, BUILD = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
+PYTHON = os.path.join(BUILD, "python", "bin", "python3")
+if not os.path.exists(PYTHON):
+    print("skipped: no Python environment for E57, LAS and LAZ (make deps)")
+    sys.exit(77)
+if os.path.realpath(sys.prefix) != os.path.realpath(os.path.join(BUILD, "python")):
+    os.execv(PYTHON, [PYTHON, *sys.argv])
+
+import laspy  # noqa: E402  only there in the environment
+import numpy  # noqa: E402
+import pye57  # noqa: E402
+from pye57 import libe57  # noqa: E402
+
+DATA = os.path.join(SOURCE, "..", "shared", "data", "formats")
+INGEST = os.path.join(BUILD, "bin", "ingest")
+
+
+def decode(path):
+    """What a decoder streams, taken apart as decoders/point_stream.py describes it: points, stations, counts, error."""
+    name = "e57" if path.endswith(".e57") else "las"
+    done = subprocess.run([PYTHON, "-Es", os.path.join(BUILD, "decoders", name + ".py"), path], capture_output=True, check=False)
+    points, stations, dropped, error, at = [], [], None, None, 0
+    while at < len(done.stdout):
+        kind, size = done.stdout[at:at + 1], struct.unpack_from("<Q", done.stdout, at + 1)[0]
+        payload = done.stdout[at + 9:at + 9 + size]
+        at += 9 + size
+        if kind == b"P":
+            points.append(numpy.frombuffer(payload).reshape(-1, 3))
+        elif kind == b"S":
+            stations.append(struct.unpack("<3d", payload))
+        elif kind == b"D":
+            dropped = struct.unpack("<2Q", payload)
+        elif kind == b"X":
+            error = payload.decode()
+    return (numpy.concatenate(points) if points else numpy.empty((0, 3))), stations, dropped, error
+
+
+def ingest(path, work, *options):
+    return subprocess.run([INGEST, "--scan", path, "--work", work, *options], capture_output=True, text=True, check=False)
+
+
+def counts(work):
+    with open(os.path.join(work, "logs", "ingest.json"), encoding="utf-8") as text:
+        return {count["what"]: count["value"] for count in json.load(text)["counts"]}
+
+
+def turn(angle, axis):
+    """Unit quaternion w x y z."""
+    axis = numpy.array(axis, float) / numpy.linalg.norm(axis)
+    return numpy.concatenate(([math.cos(angle / 2)], math.sin(angle / 2) * axis))
+
+
+def rotate(quaternion, points):
+    w, vector = quaternion[0], quaternion[1:]
+    return points + 2 * numpy.cross(vector, numpy.cross(vector, points) + w * points)
+
+
+def room(count=20000, size=(6.0, 5.0, 2.6), seed=1):
+    draw = numpy.random.default_rng(seed)
+    points = draw.random((count, 3)) * size
+    face = draw.integers(0, 6, count)
+    for axis in range(3):
+        points[face == axis, axis] = draw.normal(0, 0.003, (face == axis).sum())
+        points[face == axis + 3, axis] = draw.normal(size[axis], 0.003, (face == axis + 3).sum())
+    return points
+
+
+def write_e57(path, scans):
+    """scans: dicts with points (local), and optionally rotation, translation, spherical, scaled (step) and invalid (a mask)."""
+    file = pye57.E57(path, mode="w")
+    image = file.image_file
+    for number, scan in enumerate(scans):
+        local = scan["points"]
+        if scan.get("spherical"):
+            distance = numpy.linalg.norm(local, axis=1)
+            columns = {"sphericalRange": distance, "sphericalAzimuth": numpy.arctan2(local[:, 1], local[:, 0]),
+                       "sphericalElevation": numpy.arcsin(local[:, 2] / distance)}
+        else:
+            columns = dict(zip(("cartesianX", "cartesianY", "cartesianZ"), local.T))
+        node = libe57.StructureNode(image)
+        node.set("guid", libe57.StringNode(image, f"{{scan {number}}}"))
+        pose = libe57.StructureNode(image)
+        for member, names in (("rotation", "wxyz"), ("translation", "xyz")):
+            if member in scan:
+                part = libe57.StructureNode(image)
+                for name, value in zip(names, scan[member]):
+                    part.set(name, libe57.FloatNode(image, float(value)))
+                pose.set(member, part)
+        if "rotation" in scan or "translation" in scan:
+            node.set("pose", pose)
+        prototype = libe57.StructureNode(image)
+        for name, values in columns.items():
+            if "scaled" in scan:
+                step = scan["scaled"]
+                low, high = (int(v) for v in (numpy.floor(values.min() / step), numpy.ceil(values.max() / step)))
+                prototype.set(name, libe57.ScaledIntegerNode(image, low, low, high, step, 0.0))
+            else:
+                prototype.set(name, libe57.FloatNode(image, 0.0, libe57.E57_DOUBLE, -1e9, 1e9))
+        if "invalid" in scan:
+            state = "sphericalInvalidState" if scan.get("spherical") else "cartesianInvalidState"
+            prototype.set(state, libe57.IntegerNode(image, 0, 0, 2))
+            columns[state] = scan["invalid"].astype(float)
+        points = libe57.CompressedVectorNode(image, prototype, libe57.VectorNode(image, True))
+        node.set("points", points)
+        file.data3d.append(node)
+        if len(local) == 0:
+            continue
+        buffers = libe57.VectorSourceDestBuffer()
+        kept = [numpy.ascontiguousarray(values, float) for values in columns.values()]
+        for name, values in zip(columns, kept):
+            buffers.append(libe57.SourceDestBuffer(image, name, values, len(values), True, True))
+        writer = points.writer(buffers)
+        writer.write(len(local))
+        writer.close()
+    file.close()
+
+
+def write_las(path, points, version="1.2", point_format=1, scale=0.0001, offset=(0, 0, 0), withheld=None):
+    las = laspy.LasData(laspy.LasHeader(version=version, point_format=point_format))
+    las.header.scales, las.header.offsets = [scale] * 3, offset
+    las.x, las.y, las.z = points.T
+    if withheld is not None:
+        las.withheld = withheld
+    las.write(path)
+
+
+class Decoders(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def test_e57_gives_all_scans_in_common_coordinates_with_their_positions(self):
+        world = room()
+        for name, form in {"cartesian": {}, "spherical": {"spherical": True}, "scaled": {"scaled": 1e-5}}.items():
+            with self.subTest(form=name):
+                scans = []
+                for k, (rotation, place) in enumerate([(turn(0.7, (0, 0, 1)), (2, 2, 1.5)), (turn(2.1, (1, 2, 3)), (500004, 5600003, 1.6))]):
+                    local = rotate(rotation * (1, -1, -1, -1), world[k::2] - (2 + 2 * k, 2 + k, 1.5))
+                    scans.append({"points": local, "rotation": rotation, "translation": place, **form})
+                write_e57(self.path("r.e57"), scans)
+                points, stations, dropped, error = decode(self.path("r.e57"))
+                self.assertIsNone(error)
+                self.assertEqual(dropped, (0, 0))
+                numpy.testing.assert_allclose(stations, [s["translation"] for s in scans])
+                wanted = numpy.concatenate([world[0::2], world[1::2] + (500000, 5600000, 0.1)])
+                numpy.testing.assert_allclose(points, wanted, rtol=0, atol=3e-5)
+
+    def test_e57_poses_may_miss_a_part_and_points_may_be_none(self):
+        local = room(300)
+        local[7] = local[8] = 0
+        write_e57(self.path("p.e57"), [{"points": local, "translation": (1, 2, 3)}, {"points": numpy.empty((0, 3))},
+                                       {"points": local, "rotation": turn(math.pi / 2, (0, 0, 1)), "invalid": numpy.arange(300) % 3},
+                                       {"points": local}])
+        points, stations, dropped, error = decode(self.path("p.e57"))
+        self.assertIsNone(error)
+        self.assertEqual(stations, [(1, 2, 3), (0, 0, 0)], "no pose, no position")
+        valid = local[(numpy.arange(300) % 3 == 0) & (local != 0).any(axis=1)]
+        self.assertEqual(dropped, (2 + 0 + 2, 200))
+        numpy.testing.assert_allclose(points[:298], local[(local != 0).any(axis=1)] + (1, 2, 3))
+        numpy.testing.assert_allclose(points[298:298 + len(valid)], valid[:, [1, 0, 2]] * (-1, 1, 1), atol=1e-12)
+
+    def test_a_damaged_page_of_e57_is_named(self):
+        write_e57(self.path("d.e57"), [{"points": room(5000)}])
+        with open(self.path("d.e57"), "r+b") as file:
+            file.seek(20 * 1024 + 100)
+            byte = file.read(1)
+            file.seek(-1, 1)
+            file.write(bytes([byte[0] ^ 1]))
+        done = ingest(self.path("d.e57"), self.folder)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertRegex(done.stderr, r"error\[C04\].*page 20 is damaged")
+        self.assertIn("hint:", done.stderr)
+        self.assertFalse(os.path.exists(self.path("10_ingest/cloud.h5")))
+
+    def test_las_and_laz_of_every_point_format_give_exact_coordinates(self):
+        world = room(3000) + (691234.5, 5334567.25, 500)
+        for point_format in range(11):
+            for ending in ("las", "laz"):
+                with self.subTest(format=point_format, ending=ending):
+                    path = self.path("f." + ending)
+                    withheld = numpy.arange(3000) % 10 == 0
+                    write_las(path, world, "1.4" if point_format > 5 else "1.3", point_format, 0.0001, (691000, 5334000, 0), withheld)
+                    points, _, dropped, error = decode(path)
+                    self.assertIsNone(error)
+                    self.assertEqual(dropped, (0, 300))
+                    las = laspy.read(path)
+                    wanted = numpy.stack((las.X * 0.0001 + 691000, las.Y * 0.0001 + 5334000, las.Z * 0.0001), axis=1)[~withheld]
+                    numpy.testing.assert_array_equal(points, wanted)
+
+    def test_las_with_fewer_or_more_points_than_promised_is_refused(self):
+        write_las(self.path("a.las"), room(1000))
+        with open(self.path("a.las"), "rb") as file:
+            whole = file.read()
+        for name, content in {"fewer": whole[:-500], "more": whole[:107] + struct.pack("<I", 400) + whole[111:],
+                              "huge": whole[:107] + struct.pack("<I", 4000000000) + whole[111:]}.items():
+            with self.subTest(case=name):
+                with open(self.path("b.las"), "wb") as file:
+                    file.write(content)
+                done = ingest(self.path("b.las"), self.folder)
+                self.assertEqual(done.returncode, 3, done.stderr)
+                self.assertIn("error[C05]", done.stderr)
+                self.assertIn("hint:", done.stderr)
+
+    def test_all_formats_of_one_building_give_one_cloud(self):
+        world = numpy.round(room(30000), 4) + 0.0  # no -0
+        text = "".join(f"{x:.4f} {y:.4f} {z:.4f}\n" for x, y, z in world)
+        header = "ply\nformat ascii 1.0\nelement vertex 30000\nproperty double x\nproperty double y\nproperty double z\nend_header\n"
+        with open(self.path("s.ply"), "w", encoding="ascii") as out:
+            out.write(header + text)
+        with open(self.path("s.ptx"), "w", encoding="ascii") as out:
+            out.write("30000\n1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n" + text)
+        write_e57(self.path("s.e57"), [{"points": world}])
+        write_las(self.path("s.las"), world)
+        write_las(self.path("s.laz"), world)
+        clouds = {}
+        for ending in ("ply", "ptx", "e57", "las", "laz"):
+            work = self.path(ending)
+            done = ingest(self.path("s." + ending), work)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(counts(work)["kept"], 30000)
+            dump = subprocess.run(["h5dump", "-m", "%.4f", "-w", "1000", "-d", "/points/x", "-d", "/points/z", "-d", "/points/surface",
+                                   os.path.join(work, "10_ingest", "cloud.h5")], capture_output=True, text=True, check=True).stdout
+            clouds[ending] = re.sub(r"HDF5 .*\n", "", dump)
+        for ending, cloud in clouds.items():
+            self.assertEqual(cloud, clouds["ply"], ending)
+
+    def test_a_decoder_that_dies_leaves_an_error_and_no_half_cloud(self):
+        write_las(self.path("k.las"), room(200000))
+        os.mkdir(self.path("bin"))
+        os.symlink(os.path.join(BUILD, "python"), self.path("python"))
+        os.mkdir(self.path("decoders"))
+        copy = self.path("bin/ingest")
+        with open(INGEST, "rb") as program, open(copy, "wb") as out:
+            out.write(program.read())
+        os.chmod(copy, 0o755)
+        death = {"stops": "import os, sys; sys.stdout.buffer.write(b'P'); sys.stdout.flush(); os._exit(0)",
+                 "is killed": "import os; os.kill(os.getpid(), 9)", "fails": "raise SystemExit('no luck')",
+                 "ends without the end": "import sys; sys.stdout.buffer.write(b'P' + (48).to_bytes(8, 'little') + bytes(48))",
+                 "lies": "import sys; sys.stdout.buffer.write(b'E' + (8).to_bytes(8, 'little') + (9).to_bytes(8, 'little'))",
+                 "claims": "import sys; sys.stdout.buffer.write(b'N' + bytes([255] * 8))"}
+        for name, program in death.items():
+            with self.subTest(decoder=name):
+                with open(self.path("decoders/las.py"), "w", encoding="ascii") as out:
+                    out.write(program)
+                done = subprocess.run([copy, "--scan", self.path("k.las"), "--work", self.path("w")], capture_output=True, text=True,
+                                      check=False)
+                self.assertEqual(done.returncode, 3, done.stderr)
+                self.assertRegex(done.stderr, r"error\[C04\].*decoder did not come to the end")
+                left = [file for _, _, files in os.walk(self.path("w")) for file in files if file != "ingest.json"]
+                self.assertEqual(left, [])
+        os.remove(self.path("python"))
+        done = subprocess.run([copy, "--scan", self.path("k.las"), "--work", self.path("w")], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("error[C12]", done.stderr)
+        self.assertIn("make deps", done.stderr)
+
+    def test_mutated_files_are_read_or_refused_with_a_remedy(self):
+        world = room(2000)
+        write_e57(self.path("m.e57"), [{"points": world, "rotation": turn(1, (0, 0, 1)), "translation": (1, 2, 3)}])
+        write_las(self.path("m.las"), world)
+        write_las(self.path("m.laz"), world)
+        draw = numpy.random.default_rng(7)
+        for ending in ("e57", "las", "laz"):
+            with open(self.path("m." + ending), "rb") as file:
+                whole = file.read()
+            for k in range(12):
+                content = bytearray(whole)
+                if k % 4 == 0:
+                    content = content[:draw.integers(1, len(content))]
+                else:
+                    for at in draw.integers(0, 400 if k % 2 else len(content), 3):
+                        content[at] = draw.integers(0, 256)
+                path = self.path(f"m{k}." + ending)
+                with open(path, "wb") as file:
+                    file.write(content)
+                done = ingest(path, self.path("w"))
+                with self.subTest(file=ending, mutation=k):
+                    self.assertIn(done.returncode, (0, 3), done.stderr)
+                    if done.returncode == 3:
+                        self.assertRegex(done.stderr, r"error\[C\d\d\]")
+                        self.assertIn("hint:", done.stderr)
+
+
+class SharedFiles(unittest.TestCase):
+    """The small files of other projects, against pye57 and laspy themselves."""
+
+    def setUp(self):
+        if not os.path.isdir(DATA):
+            self.skipTest("skipped: no ../shared/data")
+
+    def test_e57(self):
+        refused = {"corrupt_crc": "C04", "olv_InvalidFileLength": "C04", "empty": "C06", "empty_pc": "C06", "olv_ZeroPoints": "C06",
+                   "olv_InvalidCVHeader": "C06", "olv_NoPrototype": None}
+        for name in sorted(os.listdir(DATA)):
+            stem, ending = os.path.splitext(name)
+            if ending != ".e57":
+                continue
+            with self.subTest(file=name):
+                points, _, dropped, error = decode(os.path.join(DATA, name))
+                if stem in refused:
+                    if refused[stem]:
+                        self.assertEqual(error.split("\n")[0], refused[stem])
+                    continue
+                self.assertIsNone(error)
+                with pye57.E57(os.path.join(DATA, name)) as file:
+                    wanted = []
+                    for index in range(file.scan_count):
+                        data = file.read_scan(index, ignore_missing_fields=True)
+                        wanted.append(numpy.stack([data["cartesian" + axis] for axis in "XYZ"], axis=1))
+                wanted = numpy.concatenate(wanted)
+                self.assertEqual(len(points), len(wanted) - dropped[0])
+                numpy.testing.assert_allclose(points, wanted[wanted.any(axis=1)] if dropped[0] else wanted, rtol=0, atol=1e-9)
+
+    def test_las(self):
+        for name in sorted(os.listdir(DATA)):
+            stem, ending = os.path.splitext(name)
+            if ending not in (".las", ".laz"):
+                continue
+            with self.subTest(file=name):
+                points, _, dropped, error = decode(os.path.join(DATA, name))
+                if stem.startswith(("broken_", "no-points")):
+                    self.assertIn(error.split("\n")[0], ("C04", "C06"))
+                    continue
+                self.assertIsNone(error)
+                twin = os.path.join(DATA, stem + ".las")  # holds the same, and every library reads it
+                las = laspy.read(twin if os.path.exists(twin) else os.path.join(DATA, name))
+                kept = ~numpy.asarray(las.withheld, bool)
+                wanted = numpy.stack((las.x, las.y, las.z), axis=1)[kept]
+                self.assertEqual(dropped[1], (~kept).sum())
+                numpy.testing.assert_array_equal(points, wanted)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
