@@ -29,7 +29,7 @@ void throw_unreadable(const std::filesystem::path& path, int error) {
 
 void require_payload(const std::filesystem::path& path, const std::string& stated,
                      const std::string& actual) {
-  if (stated != actual) {
+  if (kDigestsCount && stated != actual) {
     throw_damaged(path, "", kNotAsWritten);
   }
 }

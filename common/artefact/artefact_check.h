@@ -24,6 +24,14 @@ inline constexpr const char* kNotAsWritten =
 /// Throws kArtefactMissing: the system refuses to open or read the file, for the reason `error` (an errno).
 [[noreturn]] void throw_unreadable(const std::filesystem::path& path, int error);
 
+/// Whether a digest or checksum that a file states counts. Not in the fuzz build (libFuzzer's own name for
+/// it), whose changed files must get to the checks behind it (tests/fuzz/README.md).
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
+inline constexpr bool kDigestsCount = false;
+#else
+inline constexpr bool kDigestsCount = true;
+#endif
+
 /// Throws kArtefactDamaged unless the payload digest of what the file holds is the one that it states.
 void require_payload(const std::filesystem::path& path, const std::string& stated, const std::string& actual);
 

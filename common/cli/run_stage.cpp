@@ -9,6 +9,7 @@
 #include <iostream>
 #include <new>
 #include <optional>
+#include <system_error>
 
 #include "common/artefact/unsynced_file.h"
 #include "common/cli/stage_stamp.h"
@@ -210,6 +211,13 @@ int report(const std::vector<Problem>& problems) {
   return static_cast<int>(problems.front().code.exit_code);
 }
 
+/// std::filesystem says it by a code.
+bool is_want_of_memory(const std::exception& error) {
+  const auto* system = dynamic_cast<const std::system_error*>(&error);
+  return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
+         (system != nullptr && system->code() == std::errc::not_enough_memory);
+}
+
 /// Runs the body; every way in which it can end becomes an exit code.
 int guarded(const std::function<void()>& body, std::vector<Problem>& problems) {
   try {
@@ -218,10 +226,11 @@ int guarded(const std::function<void()>& body, std::vector<Problem>& problems) {
   } catch (const StageError& error) {
     problems = error.problems();
     return report(problems);
-  } catch (const std::bad_alloc&) {
-    problems.push_back({errors::kTooComplex, "", std::string(kNoMemory), std::string(kNoMemoryHint)});
-    return report(problems);
   } catch (const std::exception& error) {
+    if (is_want_of_memory(error)) {
+      problems.push_back({errors::kTooComplex, "", std::string(kNoMemory), std::string(kNoMemoryHint)});
+      return report(problems);
+    }
     static constexpr ErrorCode kBug{"B01", ExitCode::kBug};
     problems.push_back({kBug, "", std::string("unexpected: ") + error.what(),
                         "this is a bug in roomcut: please report it with the command line and the log"});

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "common/artefact/artefact_check.h"
 #include "common/cloud/cloud_header_reader.h"
 #include "common/cloud/cloud_io.h"
 #include "common/cloud/cloud_layout.h"
@@ -126,7 +127,8 @@ void CloudReader::read_blocks(std::uint64_t first, std::uint64_t count, CloudTil
     content.read(name, *state.columns[column], first * kSize, count * kSize, values.data());
     for (std::uint64_t done = 0, b = first_block; state.blocks && done < count; done += layout::kBlock, ++b) {
       const std::uint64_t points = std::min(layout::kBlock, count - done);
-      if (h5::checksum_of(values.data() + done, points * kSize) != state.blocks->sum(b, column)) {
+      const std::uint64_t sum = h5::checksum_of(values.data() + done, points * kSize);
+      if (kDigestsCount && sum != state.blocks->sum(b, column)) {
         h5::throw_damaged_block(content, name, b);
       }
     }

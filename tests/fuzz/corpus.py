@@ -31,6 +31,23 @@ def scans_text():
     yield "\n".join(row.format(";") for row in rows).encode("utf-16")
 
 
+def scans_pcd():
+    head = "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH {0}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {0}\nDATA {1}\n"
+    yield (head.format(len(POINTS), "ascii") + "".join(f"{x:.3f} {y:.3f} {z:.3f}\n" for x, y, z in POINTS)).encode()
+    body = b"".join(struct.pack("<3f", *p) for p in POINTS)
+    yield head.format(len(POINTS), "binary").encode() + body
+    columns = b"".join(struct.pack(f"<{len(POINTS)}f", *(p[axis] for p in POINTS)) for axis in range(3))
+    literal = b"".join(bytes([len(columns[i:i + 32]) - 1]) + columns[i:i + 32] for i in range(0, len(columns), 32))  # LZF that packs nothing
+    yield head.format(len(POINTS), "binary_compressed").encode() + struct.pack("<2I", len(literal), len(columns)) + literal
+
+
+def scans_ptx():
+    station = "{0}\n{1}\n1 2 1.5\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n1 2 1.5 1\n"
+    rows = "".join(f"{x:.3f} {y:.3f} {z:.3f} 0.5\n" for x, y, z in POINTS)
+    yield (station.format(20, len(POINTS) // 20) + rows).encode()
+    yield (station.format(2, 2) + "0 0 0 0.5\n1 2 3 0.5\n2 2 3 0.1\n0 0 0 0\n" + station.format(20, len(POINTS) // 20) + rows).encode()
+
+
 DIGEST = "0" * 64
 OPENINGS = """{"type": "FeatureCollection", "name": "openings", "roomcut": {"artefact": "openings", "schema_version": "1.0", "length_unit": "m",
 "frame": {"origin": [0.0, 0.0, 0.0], "unit": "m", "up": "z"}, "cells_payload_sha256": "DIGEST",
@@ -43,6 +60,8 @@ OPENINGS = """{"type": "FeatureCollection", "name": "openings", "roomcut": {"art
 MADE = {
     "scan_ply": scans_ply,
     "scan_text": scans_text,
+    "scan_pcd": scans_pcd,
+    "scan_ptx": scans_ptx,
     "openings": lambda: [OPENINGS.encode()],
     "stations": lambda: [b"1 2 1.5\n2,3,1.6\n", b"# none\n1;2;3\n"],
     "mesh_off": lambda: [b"OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n"],
@@ -73,6 +92,7 @@ def of_run(source, run):
         "mesh_ply": [os.path.join(run, "model.ply")],
         "mesh_obj": [os.path.join(run, "model.obj")],
         "scene": scenes,
+        "hdf5": [os.path.join(run, path) for path in ("70_graphcut/labels.h5", "55_weigh_faces/weights.h5", "50_partition/cells.h5")],
         "stamp": sorted(glob.glob(os.path.join(run, "stamps/*"))),
     }
 

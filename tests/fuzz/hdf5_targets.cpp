@@ -41,7 +41,7 @@ void slices(std::string_view edits) {
   detect_lines(read_slices(file.path()), coarse);
 }
 
-/// As the report reads it (stages/report/page_plan_blocks.cpp).
+/// The datasets that the report reads (stages/report/page_plan_blocks.cpp).
 void hough(std::string_view edits) {
   const PrivateFile file(edited_artefact(kHough, edits), ".h5");
   const H5Reader reader(file.path(), artefacts::kHough);
@@ -70,7 +70,20 @@ void labels(std::string_view edits) {
   read_labels(file.path(), seed_cells());
 }
 
-constexpr std::array kTargets{Target{"cloud", Mutation::kHdf5Edits, cloud, kCloud},
+/// The bytes of the container as they come: every artefact is read through one parser. What follows is what
+/// the inspecting programs do, and a reader of the type that the first seeds have.
+void hdf5(std::string_view bytes) {
+  const PrivateFile file(bytes, ".h5");
+  const InputRecord stated = inspect_artefact(file.path());
+  if (stated.artefact == artefacts::kLabels.name) {
+    read_labels(file.path(), seed_cells());
+  }
+  verified_plain_artefact(file.path());
+  read_provenance(file.path());
+}
+
+constexpr std::array kTargets{Target{"hdf5", Mutation::kBytes, hdf5, kLabels},
+                              Target{"cloud", Mutation::kHdf5Edits, cloud, kCloud},
                               Target{"slices", Mutation::kHdf5Edits, slices, kSlices},
                               Target{"hough", Mutation::kHdf5Edits, hough, kHough},
                               Target{"cells", Mutation::kHdf5Edits, cells, kCells},

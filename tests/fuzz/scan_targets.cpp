@@ -27,10 +27,17 @@ void scan_ply(std::string_view bytes) {
   }
 }
 
+/// Whatever it is: text, PTX, PTS, PCD are told apart by their content.
 void scan_text(std::string_view bytes) {
   if (!bytes.starts_with("ply")) {
     ingest(bytes, ".xyz");
   }
+}
+void scan_pcd(std::string_view bytes) {
+  ingest(bytes, ".pcd");
+}
+void scan_ptx(std::string_view bytes) {
+  ingest(bytes, ".ptx");
 }
 
 void stations(std::string_view bytes) {
@@ -38,9 +45,10 @@ void stations(std::string_view bytes) {
   read_stations(file.path());
 }
 
-constexpr std::array kTargets{Target{"scan_ply", Mutation::kBytes, scan_ply, ""},
-                              Target{"scan_text", Mutation::kBytes, scan_text, ""},
-                              Target{"stations", Mutation::kBytes, stations, ""}};
+constexpr std::array kTargets{
+    Target{"scan_ply", Mutation::kBytes, scan_ply, ""}, Target{"scan_text", Mutation::kBytes, scan_text, ""},
+    Target{"scan_pcd", Mutation::kBytes, scan_pcd, ""}, Target{"scan_ptx", Mutation::kBytes, scan_ptx, ""},
+    Target{"stations", Mutation::kBytes, stations, ""}};
 
 }  // namespace
 
