@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "common/artefact/limits.h"
+#include "common/artefact/sha256.h"
 #include "common/errors/codes.h"
 
 namespace roomcut {
@@ -31,6 +32,13 @@ void require_payload(const std::filesystem::path& path, const std::string& state
   if (kDigestsCount && stated != actual) {
     throw_damaged(path, "", kNotAsWritten);
   }
+}
+
+const std::string& sound_parameters(const std::filesystem::path& path, const Provenance& provenance) {
+  if (kDigestsCount && sha256_hex(provenance.params_json) != provenance.params_sha256) {
+    throw_damaged(path, "provenance", "the parameters do not have the digest that it states");
+  }
+  return provenance.params_json;
 }
 
 void require_sane(const std::filesystem::path& path, const Frame& frame) {
