@@ -34,11 +34,11 @@ void require_payload(const std::filesystem::path& path, const std::string& state
   }
 }
 
-const std::string& sound_parameters(const std::filesystem::path& path, const Provenance& provenance) {
-  if (kDigestsCount && sha256_hex(provenance.params_json) != provenance.params_sha256) {
-    throw_damaged(path, "provenance", "the parameters do not have the digest that it states");
+void require_params(const std::filesystem::path& path, const Provenance& provenance) {
+  if (kDigestsCount && !provenance.params_sha256.empty() &&
+      sha256_hex(provenance.params_json) != provenance.params_sha256) {
+    throw_damaged(path, "provenance", "the parameters do not have the digest that is stated with them");
   }
-  return provenance.params_json;
 }
 
 void require_sane(const std::filesystem::path& path, const Frame& frame) {

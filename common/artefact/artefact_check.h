@@ -35,9 +35,9 @@ inline constexpr bool kDigestsCount = true;
 /// Throws kArtefactDamaged unless the payload digest of what the file holds is the one that it states.
 void require_payload(const std::filesystem::path& path, const std::string& stated, const std::string& actual);
 
-/// The provenance's parameters (JSON). Throws kArtefactDamaged unless they have the digest that stands beside
-/// them; the payload digest does not cover them.
-const std::string& sound_parameters(const std::filesystem::path& path, const Provenance& provenance);
+/// Throws kArtefactDamaged when the parameters have another digest than is stated with them, if one is: the
+/// payload digest does not cover them.
+void require_params(const std::filesystem::path& path, const Provenance& provenance);
 
 /// Throws kArtefactDamaged unless the frame's origin is finite and sane (limits.h).
 void require_sane(const std::filesystem::path& path, const Frame& frame);

@@ -112,11 +112,15 @@ Provenance read_provenance(const std::filesystem::path& path) {
     return H5Reader(path, {record.artefact.c_str(), major, minor}).provenance();
   }
   const Json value = try_parse_json(read_text_file(path));
+  Provenance provenance;
   try {
-    return provenance_from_json((value.contains("roomcut") ? value["roomcut"] : value).at("provenance"));
+    provenance =
+        provenance_from_json((value.contains("roomcut") ? value["roomcut"] : value).at("provenance"));
   } catch (const std::exception&) {
     throw_damaged(path, "provenance", "is missing or not complete");
   }
+  require_params(path, provenance);
+  return provenance;
 }
 
 InputRecord verified_plain_artefact(const std::filesystem::path& path) {

@@ -49,6 +49,7 @@ H5Reader::H5Reader(const std::filesystem::path& path, ArtefactType expected) {
   h5::Content content(path, &expected);
   Frame frame = frame_of(content);
   Provenance provenance = provenance_of(content);
+  require_params(path, provenance);
   std::string payload = content.attribute<std::string>("/provenance", "payload_sha256");
   require_payload(path, payload, content.payload_sha256());
   remember_artefact(path, content.stated());

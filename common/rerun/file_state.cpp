@@ -18,10 +18,6 @@ FileTime time_of(const timespec& time) {
 
 }  // namespace
 
-bool FileState::operator==(const FileState& other) const {
-  return inode == other.inode && size == other.size && modified == other.modified && changed == other.changed;
-}
-
 std::optional<FileState> file_state(const std::filesystem::path& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) {

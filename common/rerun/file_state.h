@@ -21,14 +21,13 @@ struct FileState {
   unsigned long long inode = 0;
   unsigned long long size = 0;  ///< [bytes]
   FileTime modified, changed;
-  bool operator==(const FileState& other) const;
 };
 
 /// The state of the regular file at `path` (links are followed); none when there is none.
 std::optional<FileState> file_state(const std::filesystem::path& path);
 
-/// "inode size modified changed", the times as seconds.nanoseconds: for FileState's comparison in a text
-/// file.
+/// "inode size modified changed", the times as seconds.nanoseconds. Two states are the same when these texts
+/// are.
 std::string to_text(const FileState& state);
 
 /// What the file system of `folder` takes for now: the ctime of a file that is touched there; with the

@@ -121,6 +121,7 @@ WallLinesFile read_wall_lines(const std::filesystem::path& path) {
     throw StageError(errors::kArtefactDamaged, path.string(), kNotAsWritten,
                      std::string(kMakeAgain) + "; lines drawn by hand go to edits/wall_lines.geojson");
   }
+  require_params(path, file.provenance);
   remember_artefact(path, record);
   return file;
 }

@@ -84,7 +84,7 @@ void read_parameters(const fs::path& folder, RunFacts& run) {
     }
     const Provenance provenance = read_provenance(folder / file);
     const Json chosen = chosen_values(folder / "logs" / (std::string(stage) + ".json"));
-    const Json parameters = try_parse_json(sound_parameters(folder / file, provenance));
+    const Json parameters = try_parse_json(provenance.params_json);
     for (const auto& [name, value] : parameters.items()) {
       std::string text = text_of(value);
       if (chosen.contains(name)) {

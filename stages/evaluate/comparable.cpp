@@ -70,7 +70,8 @@ void require_comparable(const NamedBox& model, const NamedBox& truth) {
   if (unit != nullptr) {
     what += text("%.4g", ratio) + " times as large along all axes";
     hint = larger.name + " is probably in " + unit->name +
-           ": convert it to metres, or, where it was made of a scan, run that scan " + unit->remedy;
+           ": convert it to metres, or, where it was made of a scan, run that scan " + unit->remedy +
+           " (unless " + smaller.name + " is the one that was made with a wrong UNIT)";
   } else if (ratio > kLargestRatio) {
     what += text("%.4g", ratio) + " times as large";
   } else {

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <string_view>
 
-#include "common/artefact/artefact_check.h"
 #include "common/artefact/atomic_file.h"
 #include "common/artefact/h5.h"
 #include "common/openings/openings_io.h"
@@ -49,7 +48,7 @@ Json without_provenance(Json document) {
 
 Json summary_facts(const std::filesystem::path& path) {
   Json facts = without_provenance(read_json_artefact(path, artefacts::kSummary));
-  facts["provenance"] = {{"params_json", sound_parameters(path, read_provenance(path))}};
+  facts["provenance"] = {{"params_json", read_provenance(path).params_json}};
   return facts;
 }
 

@@ -159,6 +159,18 @@ class HostileRequests(ViewCase):
             self.assertEqual(answers.readline().split()[1], b"200")
         self.assertEqual(read(self.edit), edit)
 
+    def test_an_edit_nested_without_end_is_refused_and_leaves_nothing_behind(self):
+        first = self.moved_edit()
+        self.assertEqual(self.ask("PUT", "/api/edit", first)[0], 200)
+        for deep in ("[" * 50000 + "]" * 50000, '{"a":' * 50000 + "1" + "}" * 50000):
+            for inner in (f'"geometry": {deep}', f'"properties": {{"note": null, "mine": {deep}}}'):
+                body = '{"type": "FeatureCollection", "features": [{"type": "Feature", ' + inner + "}]}"
+                status, _, answer = self.ask("PUT", "/api/edit", body.encode())
+                self.assertEqual(status, 422)
+                self.assertIn("error[L01] edits/wall_lines.geojson", json.loads(answer)["problems"][0])
+        self.assertEqual(read(self.edit), first)
+        self.assertEqual(os.listdir(os.path.dirname(self.edit)), ["wall_lines.geojson"])
+
     def test_many_edits_and_runs_at_once_lose_none_and_leave_nothing_behind(self):
         results = collections.Counter()
 

@@ -15,7 +15,7 @@ namespace {
 constexpr ArtefactType kType{"cells", 1, 0};
 
 Provenance some_provenance() {
-  Provenance p{"partition", 3, R"({"a":1})", "ab", {}};
+  Provenance p{"partition", 3, R"({"a":1})", sha256_hex(R"({"a":1})"), {}};
   p.inputs.push_back({"lines", "wall_lines", "1.0", "cd", "../40_accept_lines/wall_lines.geojson"});
   p.inputs.push_back({"slices", "slices", "1.0", "ef", "../20_slice/slices.h5"});
   return p;
@@ -34,6 +34,7 @@ bool write_sample(const std::filesystem::path& path, double value = 2.5,
                   const std::string& params = R"({"a":1})") {
   Provenance provenance = some_provenance();
   provenance.params_json = params;
+  provenance.params_sha256 = sha256_hex(params);
   H5Writer writer(path, kType, provenance, some_frame());
   writer.write<double>("levels/z", {0.0, value, 5.0}, "m", "heights");
   writer.write<std::int32_t>("edges/face", std::vector<std::int32_t>{1, -1, 2, 3}, "1", "faces");

@@ -150,6 +150,11 @@ TEST_F(H5Damage, texts_that_are_not_utf8_are_damage) {
   expect_damage("/");
 }
 
+TEST_F(H5Damage, parameters_that_were_changed_are_not_believed) {
+  H5Writer(path_, kType, {"partition", 1, R"({"a":2})", sha256_hex(R"({"a":1})"), {}}, {}).commit();
+  expect_damage("provenance");
+}
+
 TEST_F(H5Damage, a_file_that_may_not_be_read_says_so) {
   std::filesystem::permissions(path_, std::filesystem::perms::none);
   const pid_t pid = ::fork();

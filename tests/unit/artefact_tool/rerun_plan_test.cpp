@@ -160,6 +160,15 @@ TEST_F(Plan, a_stage_whose_reader_was_killed_before_it_read_is_named) {
   EXPECT_EQ(differently_read(pipeline), (Words{"cut", "cut"}));
 }
 
+TEST_F(Plan, what_waits_makes_its_readers_wait_whatever_they_read_before) {
+  now["params/detect.json"] = "other";
+  Stamp cut = read_stamp("stamps/cut").stamp;
+  cut.inputs[1].sha256 = "other";  // of cells, an older version than partition made last
+  settle_stamp("stamps/cut", cut);
+  EXPECT_EQ(names(stale()), Words{"detect"}) << "partition may still make what cut has read";
+  EXPECT_EQ(differently_read(pipeline), Words{"partition"});
+}
+
 TEST_F(Plan, a_goal_needs_what_comes_before_it_only) {
   Words needed;
   for (const PipelineStage& stage : needed_for(pipeline, {"refine"})) {

@@ -90,6 +90,16 @@ TEST_F(EvaluateProgram, RoomsOfATruthJsonKeepTheirNames) {
   EXPECT_NEAR(list.at(1).at("volume_m3").get<double>(), 3.9 * 3 * 2.5, 0.5);
 }
 
+TEST_F(EvaluateProgram, ATruthJsonThatIsNoneIsAnErrorOfThatFile) {
+  const std::string room = R"({"rooms": [{"name": "hall", "floor": 0, "ceiling": 2.5, "center": [1, 1, )";
+  for (const std::string& height : {std::string("1e999"), std::string("1e308"), std::string(R"("high")"),
+                                    std::string(50'000, '[') + std::string(50'000, ']')}) {
+    write("truth.json", room + height + "]}]}");
+    expect_refused("M02");
+    EXPECT_NE(read("stderr").find("hint:"), std::string::npos);
+  }
+}
+
 TEST_F(EvaluateProgram, TheSameBytesForOneAndManyThreads) {
   ASSERT_EQ(run("--truth truth.off --threads 1"), 0) << read("stderr");
   const std::string scores = read("evaluate/scores.json");

@@ -142,6 +142,18 @@ TEST(AppendDigest, spares_the_reading_and_never_for_a_file_of_this_very_moment) 
   EXPECT_EQ(Counted().digests.of("a.h5"), "payload-1");
 }
 
+TEST(WorkDigests, what_is_known_of_a_file_of_this_very_moment_is_not_kept) {
+  const WorkFolder folder;
+  put_bytes("a.h5", "1");
+  const FileState state = *file_state("a.h5");
+  Counted counted;
+  counted.digests.note("a.h5", state, {state.changed, state.device}, "racy");
+  EXPECT_EQ(counted.digests.of("a.h5"), "payload-1");
+  wait_a_tick();
+  counted.digests.note("a.h5", state, *file_system_now("stamps"), "known");
+  EXPECT_EQ(counted.digests.of("a.h5"), "known");
+}
+
 TEST(IsSettled, asks_for_two_seconds_on_another_file_system) {
   FileState state;
   state.device = 1;
