@@ -117,7 +117,8 @@ std::string Content::payload_sha256() const {
       continue;
     }
     for (const auto& [name, value] : object.attributes) {
-      std::visit([&, &key = name, &of = object_path](const auto& held) { digest.attribute(of, key, held); }, value);
+      std::visit([&, &key = name, &of = object_path](const auto& held) { digest.attribute(of, key, held); },
+                 value);
     }
     if (object.dataset) {
       digest.dataset(object_path, object.dataset->type, object.dataset->shape,

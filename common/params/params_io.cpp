@@ -60,7 +60,7 @@ void read_block(const YAML::Node& block, const std::string& file, const std::str
   }
   if (!block.IsMap()) {
     problems.push_back({errors::kBadParameter, at_line(file, block.Mark()) + ": " + stage,
-                        "must be a block of `key: value` lines", ""});
+                        "must be a block of `key: value` lines", names_of(table)});
     return;
   }
   std::map<std::string, int> seen;

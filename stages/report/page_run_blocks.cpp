@@ -39,6 +39,19 @@ Json parsed(const std::filesystem::path& path) {
   return try_parse_json(read_text_file(path));
 }
 
+/// Without what no digest covers: nothing of it is on the page but the parameters, which have their own.
+Json without_provenance(Json document) {
+  Json& home = document.contains("roomcut") ? document["roomcut"] : document;
+  home.erase("provenance");
+  return document;
+}
+
+Json summary_facts(const std::filesystem::path& path) {
+  Json facts = without_provenance(read_json_artefact(path, artefacts::kSummary));
+  facts["provenance"] = {{"params_json", read_provenance(path).params_json}};
+  return facts;
+}
+
 /// Throws what the reader of the input finds wrong with it.
 void check_lines(const std::filesystem::path& path, bool openings) {
   if (openings) {
@@ -84,7 +97,7 @@ void add_run_blocks(const StageRun& run, std::vector<PageBlock>& blocks) {
     add_slices(run, facts);
   }
   if (run.has_input("summary")) {
-    facts.facts["summary"] = read_json_artefact(run.input("summary"), artefacts::kSummary);
+    facts.facts["summary"] = summary_facts(run.input("summary"));
   }
   blocks.push_back(facts.finish());
 
@@ -92,7 +105,7 @@ void add_run_blocks(const StageRun& run, std::vector<PageBlock>& blocks) {
   for (const char* input : {"detected", "lines", "refined", "openings"}) {
     if (run.has_input(input)) {
       check_lines(run.input(input), std::string_view(input) == "openings");
-      lines.facts[input] = parsed(run.input(input));
+      lines.facts[input] = without_provenance(parsed(run.input(input)));
     }
   }
   blocks.push_back(lines.finish());

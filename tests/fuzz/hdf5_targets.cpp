@@ -45,9 +45,9 @@ void slices(std::string_view edits) {
 void hough(std::string_view edits) {
   const PrivateFile file(edited_artefact(kHough, edits), ".h5");
   const H5Reader reader(file.path(), artefacts::kHough);
-  reader.read<std::uint8_t>("cells/boundary", {0});
-  reader.read<float>("cells/theta", {0});
-  reader.read<std::int32_t>("cells/line", {0});
+  const std::uint64_t count = reader.read<std::uint8_t>("cells/boundary", {0}).size();
+  reader.read<float>("cells/theta", {count});
+  reader.read<std::int32_t>("cells/line", {count});
 }
 
 void cells(std::string_view edits) {

@@ -14,7 +14,7 @@ namespace {
 /// All that ingest does with a file: reads it, sorts the points into tiles, classes them.
 void ingest(std::string_view bytes, std::string_view ending) {
   const PrivateFile file(bytes, ending);
-  const auto reader = open_scan(file.path());
+  const auto reader = open_scan(file.path(), {{}, private_folder()});
   const IngestParams params;
   const ScanSettings settings{"m", "z", std::uint64_t{1} << 20, private_folder(), file.path().string()};
   const TiledScan scan = tile_scan(*reader, settings, params);
