@@ -157,6 +157,10 @@ H5Reader::H5Reader(const std::filesystem::path& path, ArtefactType expected)
   if (!h5::read_vector_attribute(group.get(), "origin", state_->frame.origin)) {
     throw_damaged(path, "/frame", "attribute origin is missing or of another type");
   }
+  if (H5Aexists(group.get(), "level") > 0 &&
+      !h5::read_vector_attribute(group.get(), "level", state_->frame.level)) {
+    throw_damaged(path, "/frame", "attribute level is of another type");
+  }
   state_->provenance = read_provenance(path, file);
   state_->payload = AttributeReader(path, file, "/provenance").text("payload_sha256");
   remember_artefact(path, {"", artefact, version, state_->payload, ""});

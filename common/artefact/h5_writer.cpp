@@ -99,6 +99,10 @@ H5Writer::H5Writer(const std::filesystem::path& path, ArtefactType type, const P
   const Handle group(H5Gopen2(state_->file.get(), "/frame", H5P_DEFAULT), H5Gclose);
   state_->require(h5::write_vector_attribute(group.get(), "origin", frame.origin), "/frame@origin");
   state_->digest.attribute("/frame", "origin", frame.origin);
+  if (frame.levelled()) {
+    state_->require(h5::write_vector_attribute(group.get(), "level", frame.level), "/frame@level");
+    state_->digest.attribute("/frame", "level", frame.level);
+  }
 }
 
 H5Writer::~H5Writer() = default;
