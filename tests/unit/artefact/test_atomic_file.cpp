@@ -113,6 +113,17 @@ TEST(AtomicFile, is_refused_where_nothing_can_be_written) {
   EXPECT_EQ(code_of([&] { AtomicFile(folder / "folder").commit(); }), "O01");
 }
 
+TEST(AtomicFile, never_takes_the_place_of_a_device_a_pipe_or_a_folder) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  std::filesystem::create_directory(folder / "folder");
+  for (const auto& path : {folder / "pipe", folder / "folder", std::filesystem::path("/dev/null")}) {
+    EXPECT_EQ(code_of([&] { const AtomicFile file(path); }), "O01") << path;
+  }
+  EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
+  EXPECT_EQ(files_in(folder.path()), 2U);
+}
+
 TEST(AtomicFile, is_removed_when_the_disk_is_full) {
   const TemporaryFolder folder;
   const int status = in_child([&] {
