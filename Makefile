@@ -132,6 +132,7 @@ robustness: build
 	@sh .ci/install-packages.sh debian-packages-ci.txt
 	@$(quiet_make) /usr/bin/python3 tests/robustness/mutate.py . "$$BUILD" --n $(or $(N),330) --seed $(or $(SEED),1) \
 	  --keep work/robustness $(OUT:%=--json %) $(if $(ONLY),--only $(ONLY))
+	@[ -n "$(ONLY)" ] || $(quiet_make) /usr/bin/python3 tests/robustness/faults.py . "$$BUILD" --kills 200
 
 # Configured on its own, nothing is built: GCC's precompiled headers are not for clang.
 tidy: deps

@@ -147,22 +147,23 @@ OpeningsFile read_openings(const std::filesystem::path& path, const std::string&
   return file;
 }
 
+std::string openings_text(const Openings& openings, const Provenance& provenance) {
+  const Openings normalised = normalised_openings(openings);
+  Json made = to_json(provenance);
+  made["payload_sha256"] = payload_of(normalised);
+  return std::string("{\n\"type\": \"FeatureCollection\",\n\"name\": \"openings\",\n") +
+         "\"crs\": {\"type\": \"name\", \"properties\": {\"name\": " + Json(kLocalCrs).dump() + "}},\n\"" +
+         kMember + "\": {\n\"artefact\": \"openings\",\n\"schema_version\": " +
+         Json(version_text(artefacts::kOpenings)).dump() +
+         ",\n\"length_unit\": \"m\",\n\"frame\": " + canonical_json(to_json(normalised.frame)) +
+         ",\n\"cells_payload_sha256\": " + Json(normalised.cells_payload_sha256).dump() +
+         ",\n\"provenance\": " + canonical_json(made) + "\n},\n\"features\": [\n" +
+         features_text(normalised) + "\n]\n}\n";
+}
+
 bool write_openings(const std::filesystem::path& path, const Openings& openings,
                     const Provenance& provenance) {
-  const Openings normalised = normalised_openings(openings);
-  const std::string digest = payload_of(normalised);
-  Json made = to_json(provenance);
-  made["payload_sha256"] = digest;
-  const std::string text =
-      std::string("{\n\"type\": \"FeatureCollection\",\n\"name\": \"openings\",\n") +
-      "\"crs\": {\"type\": \"name\", \"properties\": {\"name\": " + Json(kLocalCrs).dump() + "}},\n\"" +
-      kMember + "\": {\n\"artefact\": \"openings\",\n\"schema_version\": " +
-      Json(version_text(artefacts::kOpenings)).dump() +
-      ",\n\"length_unit\": \"m\",\n\"frame\": " + canonical_json(to_json(normalised.frame)) +
-      ",\n\"cells_payload_sha256\": " + Json(normalised.cells_payload_sha256).dump() +
-      ",\n\"provenance\": " + canonical_json(made) + "\n},\n\"features\": [\n" + features_text(normalised) +
-      "\n]\n}\n";
-  return publish_json(path, text, digest);
+  return publish_json(path, openings_text(openings, provenance), payload_of(normalised_openings(openings)));
 }
 
 }  // namespace roomcut

@@ -7,6 +7,7 @@
 #include "common/artefact/h5.h"
 #include "common/openings/openings_io.h"
 #include "common/slices/slices_io.h"
+#include "common/wall_lines/wall_lines_format.h"
 #include "common/wall_lines/wall_lines_io.h"
 #include "stages/report/page_blocks.h"
 
@@ -34,31 +35,26 @@ constexpr std::array kStages = {"ingest",
 constexpr std::array kLogMembers = {"stage",   "revision", "version", "wall_s", "cpu_s",   "peak_memory_mb",
                                     "threads", "params",   "chosen",  "counts", "warnings"};
 
-/// A document that a reader has taken; read again because the page shows all of it.
-Json parsed(const std::filesystem::path& path) {
-  return try_parse_json(read_text_file(path));
-}
-
-/// Without what no digest covers: nothing of it is on the page but the parameters, which have their own.
-Json without_provenance(Json document) {
-  Json& home = document.contains("roomcut") ? document["roomcut"] : document;
-  home.erase("provenance");
-  return document;
-}
-
+/// The summary with nothing that no digest covers: of its provenance the parameters alone.
 Json summary_facts(const std::filesystem::path& path) {
-  Json facts = without_provenance(read_json_artefact(path, artefacts::kSummary));
+  Json facts = read_json_artefact(path, artefacts::kSummary);
   facts["provenance"] = {{"params_json", read_provenance(path).params_json}};
   return facts;
 }
 
-/// Throws what the reader of the input finds wrong with it.
-void check_lines(const std::filesystem::path& path, bool openings) {
+/// What the reader believes of a file of lines, as the file would have it: what else stands in it no digest
+/// covers.
+Json lines_facts(const std::filesystem::path& path, bool openings) {
+  Json document;
   if (openings) {
-    read_openings(path);
+    document = parse_json(openings_text(read_openings(path).content, {}));
   } else {
-    read_wall_lines(path);
+    WallLines lines = read_wall_lines(path).content;
+    lines.base_sha256.clear();
+    document = parse_json(wall_lines_text(normalised_lines(std::move(lines)), {}, ""));
   }
+  document["roomcut"].erase("provenance");
+  return document;
 }
 
 Json levels_of(const Slices& slices) {
@@ -104,8 +100,7 @@ void add_run_blocks(const StageRun& run, std::vector<PageBlock>& blocks) {
   PageBlockBuilder lines("lines");
   for (const char* input : {"detected", "lines", "refined", "openings"}) {
     if (run.has_input(input)) {
-      check_lines(run.input(input), std::string_view(input) == "openings");
-      lines.facts[input] = without_provenance(parsed(run.input(input)));
+      lines.facts[input] = lines_facts(run.input(input), std::string_view(input) == "openings");
     }
   }
   blocks.push_back(lines.finish());
@@ -117,7 +112,7 @@ void add_log_block(const StageRun& run, std::vector<PageBlock>& blocks) {
   const std::filesystem::path folder = run.output("report").parent_path() / "logs";
   for (const char* stage : kStages) {
     const std::filesystem::path file = folder / (std::string(stage) + ".json");
-    const Json log = std::filesystem::exists(file) ? parsed(file) : Json();
+    const Json log = std::filesystem::exists(file) ? try_parse_json(read_text_file(file)) : Json();
     if (!log.is_object()) {
       continue;
     }

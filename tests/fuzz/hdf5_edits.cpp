@@ -108,6 +108,7 @@ void put_back(hid_t file, const std::string& path, const Values& values, hid_t t
   H5Pset_obj_track_times(list.get(), false);
   if (claimed_rows > 0 && !shape.empty()) {
     std::vector<hsize_t> chunk(shape.size(), 1);
+    chunk[0] = std::min<hsize_t>(claimed_rows, 4096);  // few, should a later edit fill them
     shape[0] = claimed_rows;
     H5Pset_chunk(list.get(), static_cast<int>(chunk.size()), chunk.data());
   } else if (shape.empty() || values.count() > 0) {

@@ -63,7 +63,8 @@ SCORES = ["evaluate/scores.json", "evaluate/distance.ply", "evaluate/distance.pn
 
 def evaluate(truth):
     return Program("evaluate", [MODEL, truth, TRUTH_JSON, FCELLS, FLABELS, FTERMS], SCORES,
-                   ["--work", ".", "--truth", truth, "--truth-json", TRUTH_JSON, "--cells", FCELLS, "--labels", FLABELS, "--terms", FTERMS])
+                   ["--work", ".", "--truth", truth, "--truth-json", TRUTH_JSON, "--cells", FCELLS, "--labels", FLABELS, "--terms", FTERMS,
+                    "--set", "sample_spacing_m=0.2", "--set", "column_spacing_m=0.2"])
 
 
 # Besides the stages: what the other commands of the Makefile start. `compare` takes the undamaged run for A.
