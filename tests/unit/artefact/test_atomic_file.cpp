@@ -113,6 +113,19 @@ TEST(AtomicFile, is_refused_where_nothing_can_be_written) {
   EXPECT_EQ(code_of([&] { AtomicFile(folder / "folder").commit(); }), "O01");
 }
 
+TEST(AtomicFile, that_cannot_be_put_in_place_says_so_with_a_remedy_whatever_the_reason) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "a.txt/in the way");
+  AtomicFile file(folder / "a.txt");
+  try {
+    file.commit();
+    FAIL() << "a folder was replaced";
+  } catch (const StageError& error) {
+    EXPECT_EQ(error.problems().front().code.id, std::string("O01"));
+    EXPECT_NE(error.problems().front().hint, "");
+  }
+}
+
 TEST(AtomicFile, is_removed_when_the_disk_is_full) {
   const TemporaryFolder folder;
   const int status = in_child([&] {
