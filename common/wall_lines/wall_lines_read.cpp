@@ -75,6 +75,9 @@ void read_member(const Json& member, WallLinesFile& file) {
   file.content.bbox_min = {local_metres(box.at(0)), local_metres(box.at(1))};
   file.content.bbox_max = {local_metres(box.at(2)), local_metres(box.at(3))};
   file.content.base_sha256 = member.at("base_sha256").get<std::string>();
+  if (file.content.base_sha256.find_first_not_of("0123456789abcdef") != std::string::npos) {
+    throw BadJson("base_sha256 is no digest");
+  }
   file.provenance = provenance_from_json(member.at("provenance"));
 }
 

@@ -49,9 +49,7 @@ Json lines_facts(const std::filesystem::path& path, bool openings) {
   if (openings) {
     document = parse_json(openings_text(read_openings(path).content, {}));
   } else {
-    WallLines lines = read_wall_lines(path).content;
-    lines.base_sha256.clear();
-    document = parse_json(wall_lines_text(normalised_lines(std::move(lines)), {}, ""));
+    document = parse_json(wall_lines_text(normalised_lines(read_wall_lines(path).content), {}, ""));
   }
   document["roomcut"].erase("provenance");
   return document;

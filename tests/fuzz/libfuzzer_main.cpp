@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What libFuzzer calls. One program for all targets, so that there is one to link; which one it is says the
 // name that it is started by: fuzz_<target>.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 
 #include "tests/fuzz/hdf5_edits.h"
 #include "tests/fuzz/json_mutator.h"
@@ -49,6 +49,6 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   if (changed.empty()) {
     return LLVMFuzzerMutate(data, size, max_size);
   }
-  std::memcpy(data, changed.data(), changed.size());
+  std::copy(changed.begin(), changed.end(), data);
   return changed.size();
 }

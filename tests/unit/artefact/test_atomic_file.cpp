@@ -124,6 +124,19 @@ TEST(AtomicFile, never_takes_the_place_of_a_device_a_pipe_or_a_folder) {
   EXPECT_EQ(files_in(folder.path()), 2U);
 }
 
+TEST(AtomicFile, that_cannot_be_put_in_place_says_so_with_a_remedy_whatever_the_reason) {
+  const TemporaryFolder folder;
+  AtomicFile file(folder / "a.txt");
+  std::filesystem::create_directories(folder / "a.txt/in the way");
+  try {
+    file.commit();
+    FAIL() << "a folder was replaced";
+  } catch (const StageError& error) {
+    EXPECT_EQ(error.problems().front().code.id, std::string("O01"));
+    EXPECT_NE(error.problems().front().hint, "");
+  }
+}
+
 TEST(AtomicFile, is_removed_when_the_disk_is_full) {
   const TemporaryFolder folder;
   const int status = in_child([&] {

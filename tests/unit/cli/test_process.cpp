@@ -5,6 +5,10 @@
 
 #include <cassert>
 #include <csignal>
+#include <filesystem>
+#include <new>
+#include <system_error>
+#include <thread>
 
 #include "common/cli/run_stage.h"
 #include "tests/unit/cli/sample_stage.h"
@@ -62,6 +66,25 @@ TEST(Process, that_crashes_has_a_bug_and_leaves_no_file) {
     EXPECT_NE(status, 0);
 #endif
   }
+}
+
+#ifndef ROOMCUT_SANITIZED
+TEST(Process, that_runs_out_of_memory_where_nobody_catches_it_ends_with_4_and_leaves_no_file) {
+  const TemporaryFolder folder;
+  const int status = status_of(folder, [] { std::thread([] { throw std::bad_alloc(); }).join(); });
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 4);
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "20_slice"));
+}
+#endif
+
+TEST(Process, that_is_refused_memory_by_the_system_ends_with_4) {
+  const TemporaryFolder folder;
+  const int status = status_of(folder, [] {
+    throw std::filesystem::filesystem_error("path", std::make_error_code(std::errc::not_enough_memory));
+  });
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 4);
 }
 
 TEST(Process, that_fills_the_disk_ends_with_5_and_leaves_no_file) {
