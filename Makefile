@@ -9,9 +9,13 @@ MAKEFLAGS += --no-print-directory --no-builtin-rules
 # From the command line; passed on through the environment as they were typed, so that names may hold spaces and any letters, "$" too:
 # Make expands none of them, and hands none on to another make.
 BUILD ?= build
-given := SCAN WORK CONFIG BUILD JOBS UP UNIT STATIONS TRUTH PORT QUIET ONLY BASE OUT ROOT A B
+given := SCAN WORK CONFIG BUILD JOBS UP UNIT LEVEL STATIONS TRUTH PORT QUIET ONLY BASE OUT ROOT A B
 $(foreach name,$(given),$(eval override $(name) := $$(value $(name))))
 export $(given)
+# Shells call the width of a terminal COLUMNS, too: only that of the command line is meant.
+TEXT_COLUMNS := $(if $(filter command,$(firstword $(origin COLUMNS))),$(value COLUMNS))
+export TEXT_COLUMNS
+unexport COLUMNS
 MAKEOVERRIDES :=
 
 stages := ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines \
@@ -56,7 +60,8 @@ help:
 	'        (second pass) final_partition final_weigh_faces final_raycast final_graphcut   find_openings extract report' \
 	'WORK=folder    instead of work/<name of the scan>      CONFIG=my.yaml  parameters instead of pipeline.yaml' \
 	'UP=y UNIT=mm   how the scan is to be read              STATIONS=file   scanner positions, x y z on each line' \
-	'               (these four hold until said otherwise; CONFIG=none, STATIONS=none take them back)' \
+	'COLUMNS=-,x,y,z  what each column of a text scan is    LEVEL=no        a leaning scan is not levelled' \
+	'               (these six hold until said otherwise; CONFIG=none, STATIONS=none, COLUMNS=auto, LEVEL=yes take them back)' \
 	'JOBS=n         threads of a stage; default: all        PORT=n          of make view; default: any free one' \
 	'BUILD=folder   of the programs instead of build/       QUIET=1         errors only'
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The rules of the pipeline: what each stage reads and writes, and in which order they run. stages/pipeline.sh runs this file inside a
 # work folder, so that all names here are relative and have no spaces, whatever the folder is called. From the environment: ROOMCUT_BIN,
-# _SCAN, _UP, _UNIT, _THREADS, _VERBOSITY, _PROGRESS, _AGAIN, _INGEST_HEAP, which only the shell expands, never Make; not SCAN itself, which
+# _SCAN, _UP, _UNIT, _COLUMNS, _LEVEL, _THREADS, _VERBOSITY, _PROGRESS, _AGAIN, _INGEST_HEAP, which only the shell expands, never Make; not SCAN itself, which
 # Make would hand on as the user wrote it, relative to elsewhere.
 #
 # Which stages run is decided by content, never by a file's time (common/rerun/README.md):
@@ -57,7 +57,8 @@ final    := 90_final/cells.h5 90_final/weights.h5 90_final/data_terms.h5 90_fina
 openings := 95_find_openings/openings.geojson
 
 $(eval $(call stage,ingest,ingest,$(cloud),scan inputs/scan.options inputs/stations.txt,\
-  --scan "$$$$ROOMCUT_SCAN" --up "$$$$ROOMCUT_UP" --unit "$$$$ROOMCUT_UNIT" $$$$(test ! -s inputs/stations.txt || echo --stations inputs/stations.txt)))
+  --scan "$$$$ROOMCUT_SCAN" --up "$$$$ROOMCUT_UP" --unit "$$$$ROOMCUT_UNIT" --columns="$$$$ROOMCUT_COLUMNS" --level "$$$$ROOMCUT_LEVEL" \
+  $$$$(test ! -s inputs/stations.txt || echo --stations inputs/stations.txt)))
 $(eval $(call stage,slice,slice,$(slices),$(cloud)))
 $(eval $(call stage,detect_lines,detect_lines,$(lines_30) 30_detect_lines/hough.h5,$(slices)))
 $(eval $(call stage,accept_lines,accept_lines,$(lines_40),$(lines_30) edits/wall_lines.geojson))

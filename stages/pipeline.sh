@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # usage: pipeline.sh run|status|verify|view|edit-lines|diff-lines|drop-edit|layers|evaluate|compare|plot|clean|rerun [NAME …]
-# One command on one work folder; the Makefile calls it. Reads SCAN, WORK, CONFIG, BUILD, JOBS, UP, UNIT, STATIONS, TRUTH, PORT, QUIET,
-# A, B from the environment. Works with any characters in file names: every name is quoted, and Make sees relative names only.
+# One command on one work folder; the Makefile calls it. Reads SCAN, WORK, CONFIG, BUILD, JOBS, UP, UNIT, LEVEL, STATIONS, TRUTH, PORT,
+# QUIET, A, B and TEXT_COLUMNS (COLUMNS= of make) from the environment. Works with any characters in file names: every name is quoted, and Make sees relative names only.
 set -eu
 
 # Every process that this script starts costs milliseconds, a run should cost a quarter of a second: builtins where they do.
@@ -10,7 +10,7 @@ root=$(cd "${0%/*}/.." && pwd)
 stages="ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines find_openings extract report"
 runs="$stages final_partition final_weigh_faces final_raycast final_graphcut"
 . "$root/stages/pipeline_inputs.sh"
-: "${SCAN:=}" "${WORK:=}" "${CONFIG:=}" "${BUILD:=$root/build}" "${JOBS:=}" "${UP:=}" "${UNIT:=}" "${STATIONS:=}" "${TRUTH:=}"
+: "${SCAN:=}" "${WORK:=}" "${CONFIG:=}" "${BUILD:=$root/build}" "${JOBS:=}" "${UP:=}" "${UNIT:=}" "${TEXT_COLUMNS:=}" "${LEVEL:=}" "${STATIONS:=}" "${TRUTH:=}"
 : "${PORT:=}" "${QUIET:=}" "${A:=}" "${B:=}"
 
 complain() { # complain CODE CAUSE REMEDY EXIT_CODE
@@ -106,7 +106,8 @@ rules() {
   failed=0
   ROOMCUT_INGEST_HEAP=${GLIBC_TUNABLES:-$heap} \
   GLIBC_TUNABLES=${GLIBC_TUNABLES:-$heap:glibc.malloc.hugetlb=1} \
-  ROOMCUT_BIN=$BIN ROOMCUT_SCAN=$SCAN ROOMCUT_UP=$UP ROOMCUT_UNIT=$UNIT ROOMCUT_THREADS=$JOBS ROOMCUT_VERBOSITY=${QUIET:+-q} ROOMCUT_AGAIN=$again \
+  ROOMCUT_BIN=$BIN ROOMCUT_SCAN=$SCAN ROOMCUT_UP=$UP ROOMCUT_UNIT=$UNIT ROOMCUT_COLUMNS=$TEXT_COLUMNS ROOMCUT_LEVEL=$LEVEL \
+  ROOMCUT_THREADS=$JOBS ROOMCUT_VERBOSITY=${QUIET:+-q} ROOMCUT_AGAIN=$again \
     "${MAKE:-make}" -f "$root/stages/pipeline.mk" "$@" || failed=$?
   settle_inputs $failed
   [ $failed -eq 0 ] || exit $failed
@@ -141,7 +142,7 @@ show_status() {
   cd "$shadow"
   refresh
   echo "$WORK"
-  echo "  scan    $SCAN (up $UP, unit $UNIT)"
+  echo "  scan    $SCAN (up $UP, unit $UNIT${TEXT_COLUMNS:+, columns $TEXT_COLUMNS}, level $LEVEL)"
   echo "  config  ${config_path:-${CONFIG:-none}}${config_path:+ (CONFIG= given; CONFIG=none goes back to pipeline.yaml)}"
   if [ -f edits/wall_lines.geojson ]; then echo "  edit    $WORK/edits/wall_lines.geojson is in force"; fi
   pipeline_table | "$BIN/artefact" status --scan "$SCAN"
@@ -196,7 +197,7 @@ drop_edit() {
 # Serves the page until Ctrl-C, without the lock: what the page asks for is another run of this script.
 view() {
   [ -x "$BIN/view" ] || fail "$BIN: the programs are not built" "make build"
-  export SCAN WORK CONFIG BUILD JOBS UP UNIT STATIONS ROOMCUT_PROGRESS=1
+  export SCAN WORK CONFIG BUILD JOBS UP UNIT TEXT_COLUMNS LEVEL STATIONS ROOMCUT_PROGRESS=1
   unset MAKEFLAGS MFLAGS MAKELEVEL MAKEOVERRIDES TRUTH QUIET
   exec "$BIN/view" --work "$WORK" --port "${PORT:-0}" --pipeline "$root/stages/pipeline.sh" -q
 }

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Part of pipeline.sh: what enters a work folder from outside, and what is remembered of it. All of it by content.
 #   inputs/scan.path     where the scan was last          inputs/config.path  the CONFIG= that was accepted last
-#   inputs/scan.options  its up axis and unit             inputs/config.yaml  what stood in it
+#   inputs/scan.options  up, unit, columns, level         inputs/config.yaml  what stood in it
 #   inputs/stations.txt  scanner positions; may be empty  params/             resolved parameters of every stage
 #   inputs/.former/      the first three as ingest accepted them last, while it has not accepted the new ones
 
@@ -38,7 +38,7 @@ check_scan() {
     echo "note: $SCAN is gone; what was made from it stays" >&2
     return
   fi
-  hint="SCAN= names a file with a point cloud: PLY or text"
+  hint="SCAN= names a file with a point cloud: PLY, E57, LAS, LAZ, PTX, PTS, PCD or text"
   case $SCAN in
     *://*) cause="is an address, not a file" hint="download the scan first, then name the file" ;;
     *) if [ -d "$SCAN" ]; then cause="is a folder, not a scan"; elif [ -e "$SCAN" ]; then cause="is not a regular file"; else cause="there is no such file"; fi ;;
@@ -88,20 +88,25 @@ settle_inputs() {
 
 # How the scan is to be read belongs to the scan: said once, it holds until said otherwise.
 record_scan() {
-  old_up= old_unit=
+  old_up= old_unit= old_columns= old_level=
   if [ -f inputs/scan.options ]; then
-    { read -r old_up; read -r old_unit; } < inputs/scan.options || true
+    { read -r old_up; read -r old_unit; read -r old_columns; read -r old_level; } < inputs/scan.options || true
   fi
-  if [ "${UP:-$old_up}" != "$old_up" ] || [ "${UNIT:-$old_unit}" != "$old_unit" ]; then
-    "$BIN/ingest" ${UP:+--up="$UP"} ${UNIT:+--unit="$UNIT"} --dump-params > /dev/null || exit $?
+  if [ "${UP:-$old_up}" != "$old_up" ] || [ "${UNIT:-$old_unit}" != "$old_unit" ] || [ "${LEVEL:-$old_level}" != "$old_level" ]; then
+    "$BIN/ingest" ${UP:+--up="$UP"} ${UNIT:+--unit="$UNIT"} ${LEVEL:+--level="$LEVEL"} --dump-params > /dev/null || exit $?
   fi
   UP=${UP:-${old_up:-z}}
   UNIT=${UNIT:-${old_unit:-m}}
-  if ! holds inputs/scan.options "$UP
-$UNIT" || ! holds inputs/scan.path "$SCAN"; then
+  TEXT_COLUMNS=${TEXT_COLUMNS:-$old_columns}
+  if [ "$TEXT_COLUMNS" = auto ]; then TEXT_COLUMNS=; fi
+  LEVEL=${LEVEL:-${old_level:-yes}}
+  options="$UP
+$UNIT
+$TEXT_COLUMNS
+$LEVEL"
+  if ! holds inputs/scan.options "$options" || ! holds inputs/scan.path "$SCAN"; then
     keep_former
-    record inputs/scan.options "$UP
-$UNIT"
+    record inputs/scan.options "$options"
     record inputs/scan.path "$SCAN"
   fi
 }

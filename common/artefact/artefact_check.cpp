@@ -47,6 +47,9 @@ void require_sane(const std::filesystem::path& path, const Frame& frame) {
       throw_damaged(path, "/frame", "the origin is not finite, or impossibly far away");
     }
   }
+  if (!limits::is_up(frame.level)) {
+    throw_damaged(path, "/frame", "the level is no unit vector that points up");
+  }
 }
 
 std::string version_text(ArtefactType type) {

@@ -125,6 +125,16 @@ void put_in_place(const fs::path& temporary, const fs::path& path) {
   }
 }
 
+/// A rename would put a file in place of a device or a pipe: for root even of /dev/null.
+void require_replaceable(const fs::path& path) {
+  struct stat there {};
+  if (::stat(path.c_str(), &there) == 0 && !S_ISREG(there.st_mode)) {
+    throw StageError(errors::kCannotWrite, path.string(),
+                     S_ISDIR(there.st_mode) ? "is a folder" : "is a device or a pipe, and is not replaced",
+                     "name a file, in a folder that you may write");
+  }
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(fs::path final_path) : final_(std::move(final_path)) {
@@ -134,6 +144,7 @@ AtomicFile::AtomicFile(fs::path final_path) : final_(std::move(final_path)) {
   if (error) {
     cannot_write(folder, "the folder cannot be made", error.value());
   }
+  require_replaceable(final_);
   const std::string name = final_.filename().string();
   remove_left_overs(folder, name);
   temporary_ = folder / ("." + name + "." + std::to_string(::getpid()) + ".tmp");

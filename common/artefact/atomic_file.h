@@ -13,7 +13,8 @@ namespace roomcut {
 /// not reached.
 class AtomicFile {
  public:
-  /// Creates the parent folder when missing. Throws StageError(kCannotWrite).
+  /// Creates the parent folder when missing. Throws StageError(kCannotWrite), also for a final path that is a
+  /// folder, a device or a pipe.
   explicit AtomicFile(std::filesystem::path final_path);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;

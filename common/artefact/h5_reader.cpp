@@ -22,6 +22,10 @@ Frame frame_of(const h5::Content& content) {
   frame.up = content.attribute<std::string>("/frame", "up");
   const auto& origin = content.attribute<std::array<double, 3>>("/frame", "origin");
   std::copy(origin.begin(), origin.end(), std::begin(frame.origin));
+  if (content.objects().at("/frame").attributes.contains("level")) {  // of scans that were levelled
+    const auto& level = content.attribute<std::array<double, 3>>("/frame", "level");
+    std::copy(level.begin(), level.end(), std::begin(frame.level));
+  }
   require_sane(content.path(), frame);
   return frame;
 }

@@ -107,6 +107,11 @@ H5Writer::H5Writer(const std::filesystem::path& path, ArtefactType type, const P
   const Handle group(H5Gopen2(state_->file.get(), "/frame", H5P_DEFAULT), H5Gclose);
   state_->require(h5::write_vector_attribute(group.get(), "origin", origin), "/frame@origin");
   state_->digest.attribute("/frame", "origin", origin);
+  if (frame.levelled()) {
+    const std::array<double, 3> level = std::to_array(frame.level);
+    state_->require(h5::write_vector_attribute(group.get(), "level", level), "/frame@level");
+    state_->digest.attribute("/frame", "level", level);
+  }
 }
 
 H5Writer::~H5Writer() = default;

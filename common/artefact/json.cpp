@@ -159,9 +159,13 @@ Json to_json(const Provenance& provenance) {
 }
 
 Json to_json(const Frame& frame) {
-  return {{"origin", {frame.origin[0], frame.origin[1], frame.origin[2]}},
-          {"unit", frame.unit},
-          {"up", frame.up}};
+  Json value = {{"origin", {frame.origin[0], frame.origin[1], frame.origin[2]}},
+                {"unit", frame.unit},
+                {"up", frame.up}};
+  if (frame.levelled()) {
+    value["level"] = {frame.level[0], frame.level[1], frame.level[2]};
+  }
+  return value;
 }
 
 Provenance provenance_from_json(const Json& value) {
@@ -187,6 +191,12 @@ Frame frame_from_json(const Json& value) {
   }
   frame.unit = value.at("unit").get<std::string>();
   frame.up = value.at("up").get<std::string>();
+  for (std::size_t i = 0; i < 3 && value.contains("level"); ++i) {
+    frame.level[i] = number_in(value.at("level").at(i), -1, 1);
+  }
+  if (!limits::is_up(frame.level)) {
+    throw BadJson("level is no unit vector that points up");
+  }
   return frame;
 }
 

@@ -21,4 +21,9 @@ inline bool is_local(double metres) {
   return std::abs(metres) <= kFarthest_m;
 }
 
+/// Whether it is a unit vector that points up.
+inline bool is_up(const double (&v)[3]) {
+  return std::abs(std::hypot(v[0], v[1], v[2]) - 1) <= 1e-9 && v[2] > 0;
+}
+
 }  // namespace roomcut::limits

@@ -31,6 +31,10 @@ struct Frame {
   double origin[3] = {0, 0, 0};  ///< [m], in the scan's coordinates after `up` and `unit` were applied
   std::string unit = "m";        ///< the scan's length unit as read: m, mm, cm, ft
   std::string up = "z";          ///< the scan's up axis as read: x, y, z, -x, -y, -z
+  /// The unit vector, in the scan's axes after `up`, that is z here: other than 0 0 1 where a leaning scan
+  /// was levelled. It was turned about the origin (common/geometry/level_turn.h); exports turn it back.
+  double level[3] = {0, 0, 1};
+  bool levelled() const { return level[0] != 0 || level[1] != 0; }
 };
 
 }  // namespace roomcut

@@ -27,7 +27,7 @@ bool is_there(const fs::path& path) {
 
 /// A JSON file; null when it is missing or none.
 Json json_or_null(const fs::path& path) {
-  return is_there(path) ? Json::parse(read_text_file(path), nullptr, false) : Json(nullptr);
+  return is_there(path) ? try_parse_json(read_text_file(path)) : Json(nullptr);
 }
 
 std::string joined(const std::vector<std::string>& parts, const std::string& between) {

@@ -5,8 +5,8 @@
 namespace roomcut {
 
 std::vector<std::string> describe_parameters(const std::string& before, const std::string& after) {
-  const Json old = Json::parse(before, nullptr, false);
-  const Json now = Json::parse(after, nullptr, false);
+  const Json old = try_parse_json(before);
+  const Json now = try_parse_json(after);
   std::vector<std::string> text;
   if (!old.is_object() || !now.is_object()) {
     return text;

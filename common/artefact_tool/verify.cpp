@@ -41,8 +41,8 @@ void check_parameters(const fs::path& path, const Provenance& made, std::vector<
   if (!fs::is_regular_file(file, error)) {
     return;
   }
-  const Json now = Json::parse(read_text_file(file), nullptr, false);
-  const Json then = Json::parse(made.params_json, nullptr, false);
+  const Json now = try_parse_json(read_text_file(file));
+  const Json then = try_parse_json(made.params_json);
   if (!now.is_object() || !now.contains("params") || now["params"] != then ||
       now.value("revision", 0) != made.stage_revision) {
     problems.push_back({errors::kArtefactMismatch, path.string(),

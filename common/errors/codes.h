@@ -28,6 +28,7 @@ inline constexpr ErrorCode kScanExtent{"C09", ExitCode::kInput};     ///< degene
 inline constexpr ErrorCode kScanTooCoarse{"C10", ExitCode::kInput};  ///< coordinates too coarse for a model
 inline constexpr ErrorCode kScanColumns{"C11", ExitCode::kInput};    ///< which columns of a text are x, y, z?
 inline constexpr ErrorCode kScanNoDecoder{"C12", ExitCode::kInput};  ///< E57, LAS: no environment to read it
+inline constexpr ErrorCode kScanLeans{"C13", ExitCode::kInput};      ///< out of level by more than 5 degrees
 
 // A: artefacts
 inline constexpr ErrorCode kArtefactMissing{"A01", ExitCode::kInput};  ///< an input artefact is not there

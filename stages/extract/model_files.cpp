@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/artefact/atomic_file.h"
+#include "common/geometry/level_turn.h"
 #include "common/mesh/mesh_io.h"
 
 namespace roomcut {
@@ -15,6 +16,17 @@ Vec3 origin_of(const Frame& frame) {
   return {frame.origin[0], frame.origin[1], frame.origin[2]};
 }
 
+/// Vertices turned back to where the scan had them, but for the origin.
+std::vector<Vec3> turned_back(std::vector<Vec3> vertices, const Frame& frame) {
+  if (frame.levelled()) {
+    const Eigen::Matrix3d back = level_turn(frame.level).transpose();
+    for (Vec3& vertex : vertices) {
+      vertex = back * vertex;
+    }
+  }
+  return vertices;
+}
+
 const std::vector<std::string> kComments = {
     "roomcut model: metres, z up, normals point out of the empty space",
     "kind: 0 floor, 1 ceiling, 2 wall; storey: 0 = lowest"};
@@ -22,7 +34,9 @@ const std::vector<std::string> kComments = {
 }  // namespace
 
 bool write_model_ply(const std::filesystem::path& path, const Model& model, const Frame& frame) {
-  return write_text_file(path, ply_bytes(model.surface.mesh, origin_of(frame), kComments));
+  TriangleMesh mesh = model.surface.mesh;
+  mesh.vertices = turned_back(std::move(mesh.vertices), frame);
+  return write_text_file(path, ply_bytes(mesh, origin_of(frame), kComments));
 }
 
 bool write_model_obj(const std::filesystem::path& path, const Model& model, const Frame& frame) {
@@ -37,8 +51,8 @@ bool write_model_obj(const std::filesystem::path& path, const Model& model, cons
   for (auto& [key, group] : groups) {
     sorted.push_back(std::move(group));
   }
-  return write_text_file(
-      path, obj_text(model.surface.mesh.vertices, sorted, origin_of(frame), {kComments.front()}));
+  return write_text_file(path, obj_text(turned_back(model.surface.mesh.vertices, frame), sorted,
+                                        origin_of(frame), {kComments.front()}));
 }
 
 }  // namespace roomcut

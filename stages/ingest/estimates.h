@@ -5,6 +5,8 @@
 #include <bit>
 #include <cstdint>
 
+#include "stages/ingest/lean.h"
+
 namespace roomcut {
 
 /// Counts of a positive quantity in bins of 1 to 1.6 % (64 equal parts of each octave, straight from the bits
@@ -39,9 +41,11 @@ class LogHistogram {
 struct SurfaceEstimates {
   LogHistogram noise;  ///< standard deviation off the plane, one value per well-filled planar voxel [m]
   LogHistogram area;   ///< area per point, one value per point [m^2]
+  LeanSums lean;       ///< one value per coarse voxel with a flat neighbourhood
   void add(const SurfaceEstimates& other) {
     noise.add(other.noise);
     area.add(other.area);
+    lean.add(other.lean);
   }
 };
 

@@ -30,6 +30,8 @@ struct IngestCounts {
 struct ScanSettings {
   std::string unit = "m";
   std::string up = "z";
+  std::array<double, 3> level{0, 0,
+                              1};  ///< up in the scan's axes, after `up`: it is turned so that this is z
   std::uint64_t memory_bytes = std::uint64_t{256} << 20;  ///< points held in memory between the passes
   std::filesystem::path scratch_folder;                   ///< for points beyond the memory budget
   std::string name;                                       ///< of the scan, for messages

@@ -9,6 +9,7 @@
 #include "common/cloud/cloud_io.h"
 #include "common/errors/codes.h"
 #include "stages/ingest/ingest.h"
+#include "stages/ingest/lean.h"
 #include "stages/ingest/scan_stations.h"
 #include "stages/ingest/text_columns.h"
 #include "stages/ingest/up_axis.h"
@@ -107,6 +108,10 @@ StageInfo ingest_info() {
       {"up", "z", "The scan's up axis", {"x", "y", "z", "-x", "-y", "-z"}},
       {"unit", "m", "The scan's length unit", {"m", "mm", "cm", "ft"}},
       {"columns", "", "What each column of a text is, in order: x,y,z,nx,ny,nz, '-' for others", {}},
+      {"level",
+       "yes",
+       "Turn a scan that leans by 0.3 to 5 degrees, so that its floors are level",
+       {"yes", "no"}},
       {"memory-mib", "256", "Points held in memory between the passes; more go to a scratch file", {}},
       {"scan-sha256", "", "Digest of the scan's bytes, when it is known already", {}}};
   return info;
@@ -124,6 +129,70 @@ ParameterTable ingest_parameters(IngestParams& params) {
              "Points lie on a plane when their smallest variance is below this share of the middle one")};
 }
 
+namespace {
+
+constexpr double kLevelled_deg = 0.3;  // less is the noise of real floors
+constexpr double kLargest_deg = 5;
+
+/// Both passes over a scan, the cloud written but not published.
+struct MadeCloud {
+  TiledScan scan;
+  SurfaceSummary summary;
+  AxisAreas areas;
+  std::unique_ptr<CloudWriter> writer;
+};
+
+MadeCloud make_cloud(StageRun& run, const ScanReader& reader, const ScanSettings& settings,
+                     const IngestParams& params, const std::vector<Vec3>& stations,
+                     std::shared_future<std::string> digest) {
+  MadeCloud cloud;
+  Progress reading = run.progress("reading blocks", reader.blocks());
+  cloud.scan = tile_scan(reader, settings, params, [&](std::uint64_t blocks) { reading.advance(blocks); });
+  run.set_input_digest("scan", digest.get());
+  cloud.writer = std::make_unique<CloudWriter>(run.output("cloud"), run.provenance(),
+                                               header_of(cloud.scan, stations, params));
+  Progress classing = run.progress("classing points", cloud.scan.counts.kept);
+  cloud.summary = class_tiles(
+      cloud.scan, params,
+      [&](const CloudTile& part, bool last) {
+        cloud.areas.add(part);
+        cloud.writer->append(part, last);
+      },
+      [&](std::uint64_t points) { classing.advance(points); });
+  return cloud;
+}
+
+std::string degrees_text(double degrees) {
+  const auto hundredths = std::llround(100 * degrees);
+  const std::string rest = std::to_string(hundredths % 100);
+  return std::to_string(hundredths / 100) + "." + (rest.size() < 2 ? "0" : "") + rest + " degrees";
+}
+
+/// Whether the scan is to be levelled by the lean of its floors; says why not. Errors: kScanLeans.
+bool wants_levelling(StageRun& run, const Lean& lean) {
+  if (lean.degrees < kLevelled_deg) {
+    return false;
+  }
+  const std::string angle = degrees_text(lean.degrees);
+  if (!lean.walls_agree) {
+    run.warn("the floors lean by " + angle + ", which the walls do not confirm: not levelled");
+    return false;
+  }
+  if (run.option("level") == "no") {
+    run.warn("the scan leans by " + angle + " and is not levelled (--level no)");
+    return false;
+  }
+  if (lean.degrees > kLargest_deg) {
+    throw StageError(
+        errors::kScanLeans, run.input("scan").string(),
+        "floors and walls lean by " + angle + ", more than is levelled",
+        "level the scan when exporting it, or give --up if another axis is up; --level no reads it as it is");
+  }
+  return true;
+}
+
+}  // namespace
+
 void run_ingest(StageRun& run, const IngestParams& params) {
   const std::filesystem::path output = run.output("cloud");
   const std::filesystem::path folder =
@@ -140,30 +209,30 @@ void run_ingest(StageRun& run, const IngestParams& params) {
   if (!run.input("stations").empty()) {
     stations = read_stations(run.input("stations"));
   }
-  std::future<std::string> digest = start_digest(run);
-  const ScanSettings settings{run.option("unit"), run.option("up"), memory_bytes(run), folder,
-                              run.input("scan").string()};
-  Progress reading = run.progress("reading blocks", reader->blocks());
-  const TiledScan scan =
-      tile_scan(*reader, settings, params, [&](std::uint64_t blocks) { reading.advance(blocks); });
-  run.set_input_digest("scan", digest.get());
-
-  CloudWriter writer(output, run.provenance(), header_of(scan, stations, params));
-  Progress classing = run.progress("classing points", scan.counts.kept);
-  AxisAreas areas;
-  const SurfaceSummary summary = class_tiles(
-      scan, params,
-      [&](const CloudTile& part, bool last) {
-        areas.add(part);
-        writer.append(part, last);
-      },
-      [&](std::uint64_t points) { classing.advance(points); });
-  writer.header().noise_m = noise_of(summary.estimates, scan.step_m);
-  writer.header().density = density_of(summary.estimates);
-  writer.finish();
-  report(run, scan, summary, writer.header());
-  const CloudHeader& header = writer.header();
-  if (const std::string question = upright_floors(areas, header.bbox_min, header.bbox_max, run.option("up"));
+  const std::shared_future<std::string> digest = start_digest(run).share();
+  ScanSettings settings;
+  settings.unit = run.option("unit");
+  settings.up = run.option("up");
+  settings.memory_bytes = memory_bytes(run);
+  settings.scratch_folder = folder;
+  settings.name = run.input("scan").string();
+  MadeCloud cloud = make_cloud(run, *reader, settings, params, stations, digest);
+  const Lean lean = lean_of(cloud.summary.estimates.lean);
+  if (wants_levelling(run, lean)) {
+    cloud = {};  // what was written is not published
+    settings.level = lean.up;
+    cloud = make_cloud(run, *reader, settings, params, stations, digest);
+    run.warn("the scan leans by " + degrees_text(lean.degrees) +
+             "; it was levelled by its floors, and the model is turned back (--level no: make LEVEL=no)");
+  }
+  CloudHeader& header = cloud.writer->header();
+  header.noise_m = noise_of(cloud.summary.estimates, cloud.scan.step_m);
+  header.density = density_of(cloud.summary.estimates);
+  cloud.writer->finish();
+  report(run, cloud.scan, cloud.summary, header);
+  run.count("lean", lean.degrees, "degrees");
+  if (const std::string question =
+          upright_floors(cloud.areas, header.bbox_min, header.bbox_max, run.option("up"));
       !question.empty()) {
     run.warn(question);
   }

@@ -7,6 +7,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "common/geometry/level_turn.h"
+
 namespace roomcut {
 
 namespace {
@@ -80,9 +82,10 @@ void copy_normal(const ScanBlock& block, const ScanFrame& frame, std::size_t fro
   const auto turned = [&](std::size_t axis) {
     return static_cast<float>(frame.sign[axis]) * columns[static_cast<std::size_t>(frame.axis[axis])][from];
   };
-  local.nx[to] = turned(0);
-  local.ny[to] = turned(1);
-  local.nz[to] = turned(2);
+  const Eigen::Vector3f level = frame.level.cast<float>() * Eigen::Vector3f(turned(0), turned(1), turned(2));
+  local.nx[to] = level.x();
+  local.ny[to] = level.y();
+  local.nz[to] = level.z();
 }
 
 void resize(LocalPoints& local, std::size_t points, bool normals) {
@@ -102,7 +105,7 @@ Vec3 ScanFrame::turned(const Vec3& file) const {
 }
 
 ScanFrame choose_frame(const ScanBlock& sample, const std::string& unit, const std::string& up,
-                       double voxel_edge_m) {
+                       double voxel_edge_m, const std::array<double, 3>& up_in_scan) {
   const Axes& axes = axes_of(up);
   ScanFrame result;
   result.frame.unit = unit;
@@ -111,15 +114,21 @@ ScanFrame choose_frame(const ScanBlock& sample, const std::string& unit, const s
   result.axis = axes.axis;
   result.sign = axes.sign;
   const Vec3 middle = median_point(sample, result);
+  std::copy(up_in_scan.begin(), up_in_scan.end(), result.frame.level);
+  result.level = level_turn(result.frame.level);
   const double tile = UnitScale(voxel_edge_m).tile_edge_m();
   for (int k = 0; k < 3; ++k) {
     const auto axis = static_cast<std::size_t>(k);
     if (std::abs(middle[k]) >= kNearOrigin_m) {
       result.frame.origin[axis] = std::round(middle[k] / kOriginStep_m) * kOriginStep_m;
     }
+  }
+  const Vec3 origin(result.frame.origin[0], result.frame.origin[1], result.frame.origin[2]);
+  const Vec3 local = result.level * (middle - origin);
+  for (int k = 0; k < 3; ++k) {
     const int half = (k < 2 ? fixed_grid::kWindowTiles : fixed_grid::kWindowLayers) / 2;
-    result.window[axis] =
-        static_cast<std::int32_t>(std::floor((middle[k] - result.frame.origin[axis]) / tile)) - half;
+    result.window[static_cast<std::size_t>(k)] =
+        static_cast<std::int32_t>(std::floor(local[k] / tile)) - half;
   }
   return result;
 }
@@ -132,6 +141,7 @@ void to_local(const ScanBlock& block, const ScanFrame& frame, const UnitScale& s
   const AxisMap x = axis_map(block, frame, 0);
   const AxisMap y = axis_map(block, frame, 1);
   const AxisMap z = axis_map(block, frame, 2);
+  const bool levelled = frame.frame.levelled();
   const double tile = scale.tile_edge_m();
   std::array<double, 3> low{};
   std::array<double, 3> high{};
@@ -143,9 +153,15 @@ void to_local(const ScanBlock& block, const ScanFrame& frame, const UnitScale& s
   }
   std::size_t kept = 0;
   for (std::size_t i = 0; i < block.size(); ++i) {
-    const double px = x(i);
-    const double py = y(i);
-    const double pz = z(i);
+    double px = x(i);
+    double py = y(i);
+    double pz = z(i);
+    if (levelled) {
+      const Vec3 level = frame.level * Vec3(px, py, pz);
+      px = level.x();
+      py = level.y();
+      pz = level.z();
+    }
     const bool inside =
         px > low[0] && px < high[0] && py > low[1] && py < high[1] && pz > low[2] && pz < high[2];
     if (inside) {

@@ -21,11 +21,13 @@ struct ScanFrame {
   std::array<std::int32_t, 3> window{
       0, 0, 0};  ///< lower corner of the window in tile edges; points outside are ghosts
 
+  Eigen::Matrix3d level = Eigen::Matrix3d::Identity();  ///< level_turn() of the frame
+
   /// Metres, z up, before the origin is subtracted.
   Vec3 turned(const Vec3& file) const;
   /// Local coordinates.
   Vec3 local(const Vec3& file) const {
-    return turned(file) - Vec3(frame.origin[0], frame.origin[1], frame.origin[2]);
+    return level * (turned(file) - Vec3(frame.origin[0], frame.origin[1], frame.origin[2]));
   }
 };
 
@@ -41,10 +43,10 @@ struct LocalPoints {
 /// Unit m, mm, cm or ft; up axis x, y, z, -x, -y, -z: the axes are turned, never mirrored; y up becomes (x,
 /// -z, y). The origin is 0 along an axis where the scan lies within 1 km of it, where float32 keeps 0.1 mm;
 /// else the median of the sample rounded to 100 m. The window is centred on the median: the median of finite
-/// points in `sample` is robust against ghosts.  Errors: std::invalid_argument for other words; returns
-/// nothing special when no point is finite.
+/// points in `sample` is robust against ghosts. `up_in_scan`: the unit vector that is to be z (Frame::level).
+/// Errors: std::invalid_argument for other words; returns nothing special when no point is finite.
 ScanFrame choose_frame(const ScanBlock& sample, const std::string& unit, const std::string& up,
-                       double voxel_edge_m);
+                       double voxel_edge_m, const std::array<double, 3>& up_in_scan = {0, 0, 1});
 
 /// Converts a block. Keeps the order. `local` is overwritten, its capacity used again.
 void to_local(const ScanBlock& block, const ScanFrame& frame, const UnitScale& scale, LocalPoints& local);

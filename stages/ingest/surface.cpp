@@ -20,6 +20,7 @@ constexpr std::uint32_t kParentHas =
          // four times the 12 that a neighbourhood should hold. Asking the parent,
          // not the count itself, keeps the areas free of a selection bias
 constexpr std::uint32_t kWellFilled = 20;  // points for a noise estimate
+constexpr float kFlat_m = 0.02F;           // scatter of a plane that shows how it leans
 constexpr double kClearPlane = 0.15;       // lambda0 / lambda1 for a noise estimate
 constexpr double kLineShare = 0.01;  // lambda1 below this share of the neighbourhood's edge squared: a line
 constexpr double kLargestTilt =
@@ -95,6 +96,28 @@ void for_own_columns(const VoxelLevel& level, Visit&& visit) {
   }
 }
 
+/// The level whose neighbourhoods show best how planes lean: the coarsest, 1.2 m wide, where one scattered
+/// point is a matter of minutes of arc, unless they hold too many points there.
+int leaning_level(const TileGrid& grid) {
+  int level = kLast;
+  const std::size_t points = grid.points().size();
+  while (level > 1 && 9 * points > kMost / 2 * std::max<std::size_t>(1, grid.level(level).size())) {
+    --level;
+  }
+  return level;
+}
+
+void add_lean(const VoxelSurface& surface, LeanSums& sums) {
+  if (surface.noise <= 0 || surface.noise > kFlat_m) {
+    return;
+  }
+  if (surface.surface == SurfaceClass::kHorizontal) {
+    sums.add_level(surface.lean);
+  } else if (surface.surface == SurfaceClass::kWall) {
+    sums.add_wall(surface.lean, azimuth_of(surface.azimuth));
+  }
+}
+
 NeighbourSum accumulate(const VoxelLevel& level, std::uint16_t z, Neighbourhood& around) {
   MomentSum moments;
   VoxelMask mask = 0;
@@ -139,6 +162,9 @@ VoxelSurface surface_of(const NeighbourSum& sum, const std::array<std::uint32_t,
   }
   if (result.surface == SurfaceClass::kWall) {
     result.azimuth = azimuth_step(plane.normal[0], plane.normal[1]);
+    result.lean = lean_of_wall(plane.normal);
+  } else if (result.surface == SurfaceClass::kHorizontal) {
+    result.lean = lean_of_level(plane.normal);
   }
   const int filled = std::popcount(projected(sum.mask, viewing_axis(plane.normal)));
   const Covered covered = covered_cells(points, filled);
@@ -243,6 +269,13 @@ const std::vector<VoxelSurface>& SurfaceFinder::find(const TileGrid& grid, const
       if (result_[voxel].noise > 0) {
         estimates.noise.add(result_[voxel].noise);
       }
+    }
+  });
+  const int coarse = leaning_level(grid);
+  const VoxelLevel& voxels = grid.level(coarse);
+  for_own_columns(voxels, [&](int ix, int iy, std::uint32_t first, std::uint32_t last) {
+    for (std::uint32_t voxel = first; voxel < last; ++voxel) {
+      add_lean(at_coarse(grid, scale, coarse, voxel, ix, iy), estimates.lean);
     }
   });
   return result_;

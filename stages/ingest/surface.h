@@ -6,6 +6,7 @@
 #include "common/cloud/cloud.h"
 #include "stages/ingest/coverage.h"
 #include "stages/ingest/estimates.h"
+#include "stages/ingest/lean.h"
 #include "stages/ingest/params.h"
 #include "stages/ingest/tile_grid.h"
 
@@ -20,6 +21,7 @@ struct VoxelSurface {
   bool undecided = false;   ///< chance alone may have put the plane test on this side
   float tilt_variance = 0;  ///< of the plane's direction, lambda0 / (n lambda1) [rad^2]
   float area = 0;           ///< area per point [m^2]
+  PlaneLean lean;           ///< of level planes and walls
   float noise =
       0;  ///< standard deviation off the plane; 0 when the voxel is not well filled or no clear plane [m]
 };

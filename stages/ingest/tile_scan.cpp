@@ -184,7 +184,7 @@ TiledScan tile_scan(const ScanReader& reader, const ScanSettings& settings, cons
   scan.band_points = settings.band_points;
   {
     const ScanBlock sample = first_useful_block(reader);
-    scan.frame = choose_frame(sample, settings.unit, settings.up, params.voxel_edge_m);
+    scan.frame = choose_frame(sample, settings.unit, settings.up, params.voxel_edge_m, settings.level);
     scan.step_m = quantisation_step(sample, scan.frame, reader);
     check_step(scan.step_m, settings);
   }

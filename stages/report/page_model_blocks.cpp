@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "common/cloud/cloud_io.h"
+#include "common/geometry/level_turn.h"
 #include "common/mesh/mesh_io.h"
 #include "stages/report/page_blocks.h"
 #include "stages/report/page_points.h"
@@ -10,11 +11,12 @@ namespace roomcut {
 
 namespace {
 
-/// The model in local metres: model.ply has the frame's origin added.
+/// The model in local metres: model.ply has the frame's origin added, and stands as the scan does.
 TriangleMesh local_model(const StageRun& run, const Frame& frame) {
   TriangleMesh model = read_mesh(run.input("model"));
+  const Eigen::Matrix3d turn = level_turn(frame.level);
   for (Vec3& vertex : model.vertices) {
-    vertex -= Vec3(frame.origin[0], frame.origin[1], frame.origin[2]);
+    vertex = turn * (vertex - Vec3(frame.origin[0], frame.origin[1], frame.origin[2]));
   }
   return model;
 }

@@ -205,7 +205,7 @@ flaw() { # flaw FILE CODE PATTERN COMMAND …: the command damages FILE, verify 
 }
 flaw summary.json A02 'rooms.0.area_m2: ' change "$work/summary.json" 'd["rooms"][0]["area_m2"] = "large"'
 flaw summary.json A02 'does not have the digest' change "$work/summary.json" 'd["rooms"][0]["area_m2"] += 1'
-flaw summary.json A02 'its parameters do not have the digest' change "$work/summary.json" 'd["provenance"]["params_json"] = "{}"'
+flaw summary.json A02 'the parameters do not have the digest' change "$work/summary.json" 'd["provenance"]["params_json"] = "{}"'
 flaw summary.json A05 'was made from another version of' change "$work/summary.json" '
 inputs = d["provenance"]["inputs"]
 (inputs["labels"] if isinstance(inputs, dict) else [i for i in inputs if i["name"] == "labels"][0])["payload_sha256"] = "0" * 64'

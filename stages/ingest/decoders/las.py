@@ -11,7 +11,7 @@ import numpy
 
 import point_stream
 
-BLOCK = 1 << 17  # points
+BLOCK = 500_000  # points: ten of the usual chunks, so that all cores have some
 MOST_IN_CHUNK = 1 << 24  # points of one LAZ chunk; writers use 50,000
 VARIABLE = 0xFFFFFFFF
 
@@ -58,7 +58,8 @@ def check_chunks(header):
 
 def blocks(path):
     """The points of a file, a block at a time: lazrs on all cores, LASzip for the compression that only it knows (version 4)."""
-    with laspy.open(path, laz_backend=laspy.LazBackend.LazrsParallel) as reader:
+    needed = laspy.DecompressionSelection.base().decompress_z().decompress_flags()  # formats 6 to 10 come in layers
+    with laspy.open(path, laz_backend=laspy.LazBackend.LazrsParallel, decompression_selection=needed) as reader:
         try:
             yield from reader.chunk_iterator(BLOCK)
             return
@@ -88,9 +89,13 @@ def decode(path, stream):
     for block in blocks(path):
         read += len(block)
         withheld = numpy.asarray(block.withheld, bool)
-        stream.invalid += int(withheld.sum())
-        raw = numpy.stack((block.array["X"], block.array["Y"], block.array["Z"]), axis=1)
-        xyz = (raw if not withheld.any() else raw[~withheld]) * scales + offsets
+        xyz = numpy.empty((len(block), 3))
+        for axis, name in enumerate("XYZ"):
+            numpy.multiply(block.array[name], scales[axis], out=xyz[:, axis])
+            xyz[:, axis] += offsets[axis]
+        if withheld.any():
+            stream.invalid += int(withheld.sum())
+            xyz = xyz[~withheld]
         stream.add(xyz)
     if read != header.point_count:
         raise point_stream.ScanError("C05", f"the header promises {header.point_count} points, the file holds {read}")

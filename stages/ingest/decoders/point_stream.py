@@ -32,8 +32,8 @@ class PointStream:
 
     def add(self, points):
         """n × 3 coordinates, without those that are not finite (they are counted as invalid)."""
-        finite = numpy.isfinite(points).all(axis=1)
-        if not finite.all():
+        if not numpy.isfinite(points).all():
+            finite = numpy.isfinite(points).all(axis=1)
             self.invalid += int(len(points) - finite.sum())
             points = points[finite]
         if len(points) > 0:

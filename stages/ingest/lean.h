@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace roomcut {
+
+/// How a plane leans, in units of 2^-15: of a level one the slope of its normal along x and y; of an upright
+/// one (x alone) the slope of its normal upwards, the normal taken on the side of its azimuth.
+struct PlaneLean {
+  std::int16_t x = 0, y = 0;
+};
+
+/// The lean of a plane with this unit normal; slopes beyond ±0.99 are cut off.
+PlaneLean lean_of_level(const std::array<double, 3>& normal);
+PlaneLean lean_of_wall(const std::array<double, 3>& normal);
+
+/// Collects the leans of clear planes. Sums of integers: the order does not matter.
+class LeanSums {
+ public:
+  void add_level(const PlaneLean& lean);
+  void add_wall(const PlaneLean& lean, double azimuth);
+  void add(const LeanSums& other);
+
+  /// Where up is, as the level planes say: x and y of its slope. Of several groups of planes, as a floor and
+  /// a roof make them, the most level one of at least a quarter of them. 0 0 when there are fewer than 40.
+  std::array<double, 2> floors() const;
+  /// Likewise as the upright planes say; 0 0 without walls in two directions.
+  std::array<double, 2> walls() const;
+
+ private:
+  static constexpr int kBins = 512;  // of 2^-11, 0.028 degrees: slopes up to 0.125
+  std::array<std::array<std::uint32_t, kBins>, 2> floors_{};
+  std::array<std::int64_t, 5> walls_{};  ///< of c c, c s, s s, c lean, s lean for normals (c, s)
+};
+
+/// What a scan's planes say of its being level.
+struct Lean {
+  std::array<double, 3> up{0, 0, 1};  ///< unit vector
+  double degrees = 0;                 ///< between it and z
+  bool walls_agree = false;  ///< the walls lean more with the floors than with z: no ramp, but the scan
+};
+
+Lean lean_of(const LeanSums& sums);
+
+}  // namespace roomcut
