@@ -16,7 +16,10 @@ void ingest(std::string_view bytes, std::string_view ending) {
   const PrivateFile file(bytes, ending);
   const auto reader = open_scan(file.path(), {{}, private_folder()});
   const IngestParams params;
-  const ScanSettings settings{"m", "z", std::uint64_t{1} << 20, private_folder(), file.path().string()};
+  ScanSettings settings;
+  settings.memory_bytes = std::uint64_t{1} << 20;
+  settings.scratch_folder = private_folder();
+  settings.name = file.path().string();
   const TiledScan scan = tile_scan(*reader, settings, params);
   class_tiles(scan, params, [](const CloudTile&, bool) {});
 }
