@@ -2,10 +2,12 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <string_view>
 
 #include "common/artefact/artefact_check.h"
 #include "common/artefact/h5_blocks.h"
@@ -33,7 +35,11 @@ Kind kind_of(const std::filesystem::path& path) {
   if (got == 8 && head == kSignature) {
     return Kind::kHdf5;
   }
-  return got > 0 && head[0] == '{' ? Kind::kText : Kind::kOther;
+  const std::string_view text(reinterpret_cast<const char*>(head.data()),
+                              static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+  const std::size_t mark = text.starts_with("\xef\xbb\xbf") ? 3 : 0;  // an editor's
+  const std::size_t begin = text.find_first_not_of(" \t\r\n", mark);
+  return begin != std::string_view::npos && text[begin] == '{' ? Kind::kText : Kind::kOther;
 }
 
 /// Nothing for a file that is damaged.

@@ -15,14 +15,21 @@ std::string join(const std::vector<Problem>& problems) {
   return text;
 }
 
+/// A hostile file may have words of a megabyte; a message is for people.
+std::string shortened(const std::string& text) {
+  constexpr std::size_t kMost = 2000;
+  return text.size() <= kMost ? text
+                              : text.substr(0, kMost / 2) + " … " + text.substr(text.size() - kMost / 2);
+}
+
 }  // namespace
 
 std::string to_string(const Problem& problem) {
   std::string text = std::string("error[") + problem.code.id + "] ";
   if (!problem.where.empty()) {
-    text += problem.where + ": ";
+    text += shortened(problem.where) + ": ";
   }
-  text += problem.what + "\n";
+  text += shortened(problem.what) + "\n";
   if (!problem.hint.empty()) {
     text += "hint: " + problem.hint + "\n";
   }

@@ -11,6 +11,7 @@
 #include "common/artefact/artefact_check.h"
 #include "common/artefact/atomic_file.h"
 #include "common/artefact/json.h"
+#include "common/artefact/known_artefacts.h"
 #include "common/artefact/local_crs.h"
 #include "common/artefact/sha256.h"
 #include "common/errors/codes.h"
@@ -119,11 +120,12 @@ std::string payload_of(const Openings& normalised) {
 OpeningsFile read_openings(const std::filesystem::path& path) {
   OpeningsFile file;
   std::string stated;
+  std::string version;
   try {
     const Json document = parse_json(read_text_file(path));
     const Json& member = document.at(kMember);
-    check_type_and_version(path, member.at("artefact").get<std::string>(),
-                           member.at("schema_version").get<std::string>(), artefacts::kOpenings);
+    version = member.at("schema_version").get<std::string>();
+    check_type_and_version(path, member.at("artefact").get<std::string>(), version, artefacts::kOpenings);
     file.content.frame = frame_from_json(member.at("frame"));
     file.content.cells_payload_sha256 = member.at("cells_payload_sha256").get<std::string>();
     file.content.openings = openings_from(document.at("features"));
@@ -135,6 +137,7 @@ OpeningsFile read_openings(const std::filesystem::path& path) {
   }
   file.payload_sha256 = payload_of(normalised_openings(file.content));
   require_payload(path, stated, file.payload_sha256);
+  remember_artefact(path, {"", artefacts::kOpenings.name, version, stated, ""});
   return file;
 }
 

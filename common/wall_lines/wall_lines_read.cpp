@@ -75,7 +75,9 @@ void read_member(const Json& member, WallLinesFile& file) {
   file.content.bbox_min = {local_metres(box.at(0)), local_metres(box.at(1))};
   file.content.bbox_max = {local_metres(box.at(2)), local_metres(box.at(3))};
   file.content.base_sha256 = member.at("base_sha256").get<std::string>();
-  if (file.content.base_sha256.find_first_not_of("0123456789abcdef") != std::string::npos) {
+  const std::string& base = file.content.base_sha256;  // no digest covers it
+  if (!base.empty() &&
+      (base.size() != 64 || base.find_first_not_of("0123456789abcdef") != std::string::npos)) {
     throw BadJson("base_sha256 is no digest");
   }
   file.provenance = provenance_from_json(member.at("provenance"));
@@ -120,7 +122,7 @@ WallLinesFile read_wall_lines(const std::filesystem::path& path) {
     throw_damaged(path, "", error.what());
   }
   file.payload_sha256 = wall_lines_payload_sha256(file.content);
-  if (file.payload_sha256 != record.payload_sha256) {
+  if (kDigestsCount && file.payload_sha256 != record.payload_sha256) {
     throw StageError(errors::kArtefactDamaged, path.string(), kNotAsWritten,
                      std::string(kMakeAgain) + "; lines drawn by hand go to edits/wall_lines.geojson");
   }

@@ -15,6 +15,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 import time
 
 import corpus
@@ -28,18 +29,19 @@ LONGEST = 12000
 POINTS = 3000  # of the sound run: a target reads a whole artefact at every turn
 
 
-def environment(source, run):
-    return {"ASAN_OPTIONS": "allocator_may_return_null=1:handle_abort=1", "UBSAN_OPTIONS": "halt_on_error=1:print_stacktrace=1",
+def environment(source, run, temporary):
+    """`temporary`: where the targets put what they read, better in memory."""
+    return {"TMPDIR": temporary, "ASAN_OPTIONS": "allocator_may_return_null=1:handle_abort=1", "UBSAN_OPTIONS": "halt_on_error=1:print_stacktrace=1",
             "LSAN_OPTIONS": f"suppressions={source}/.ci/lsan.supp:print_suppressions=0", "ROOMCUT_FUZZ_SEEDS": run}
 
 
 class Runner:
-    def __init__(self, source, build, fuzz_build, seconds):
+    def __init__(self, source, build, fuzz_build, seconds, temporary):
         self.source, self.folder, self.seconds = source, fuzz_build, seconds
         self.run = os.path.join(fuzz_build, "run")
         self.make_run(build)
         corpus.fill(source, self.run, os.path.join(fuzz_build, "corpus"))
-        self.environment = os.environ | environment(source, self.run)
+        self.environment = os.environ | environment(source, self.run, temporary)
 
     def make_run(self, build):
         base_run.make(self.source, build, self.run, points=POINTS)
@@ -120,14 +122,19 @@ def main():
     parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
     parser.add_argument("--list", action="store_true")
     options = parser.parse_args()
-    runner = Runner(options.source, options.build, options.fuzz_build, options.seconds)
+    with tempfile.TemporaryDirectory(prefix="roomcut_fuzz_", dir="/dev/shm" if os.access("/dev/shm", os.W_OK) else None) as temporary:
+        return fuzz(Runner(options.source, options.build, options.fuzz_build, options.seconds, temporary), options)
+
+
+def fuzz(runner, options):
     names = runner.names()
     if options.list:
         print("\n".join(names))
         return 0
     unknown = set(options.only) - set(names)
     if unknown:
-        parser.error(f"there is no target {' '.join(sorted(unknown))}; the targets are: {' '.join(names)}")
+        print(f"there is no target {' '.join(sorted(unknown))}; the targets are: {' '.join(names)}", file=sys.stderr)
+        return 2
     bad = 0
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         for name, runs, cover, seen in pool.map(runner.target, options.only or names):

@@ -17,4 +17,4 @@ source, build, replay = (os.path.abspath(path) for path in sys.argv[1:4])
 with tempfile.TemporaryDirectory() as folder:
     run = base_run.make(source, build, os.path.join(folder, "run"), points=fuzz.POINTS)
     sys.exit(subprocess.run([replay, os.path.join(source, "tests/data/broken")], check=False,
-                            env=os.environ | fuzz.environment(source, run)).returncode)
+                            env=os.environ | fuzz.environment(source, run, folder)).returncode)

@@ -58,28 +58,20 @@ fs::path seeds() {
 
 namespace {
 
-/// Removed at the end of the process; what a crash leaves, the next start of the machine takes away.
-struct Folder {
-  fs::path path;
-  Folder() {
-    std::string name = (fs::is_directory("/dev/shm") ? fs::path("/dev/shm") : fs::temp_directory_path()) /
-                       "roomcut_fuzz_XXXXXX";
-    if (::mkdtemp(name.data()) == nullptr) {
-      throw std::runtime_error("no private folder can be made: " + name);
-    }
-    path = name;
+/// fuzz.py takes it away: neither libFuzzer nor a crash lets a process end so that it could do that itself.
+fs::path make_folder() {
+  std::string name = fs::temp_directory_path() / "roomcut_fuzz_XXXXXX";
+  if (::mkdtemp(name.data()) == nullptr) {
+    throw std::runtime_error("no private folder can be made: " + name);
   }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-};
+  return name;
+}
 
 }  // namespace
 
 const fs::path& private_folder() {
-  static const Folder kFolder;
-  return kFolder.path;
+  static const fs::path kFolder = make_folder();
+  return kFolder;
 }
 
 PrivateFile::PrivateFile(std::string_view bytes, std::string_view ending)

@@ -50,7 +50,7 @@ class PrivateFile {
   std::filesystem::path path_;
 };
 
-/// A folder in memory, of this process alone, where PrivateFile and scratch files lie.
+/// A folder of this process alone, below TMPDIR, where PrivateFile and scratch files lie.
 const std::filesystem::path& private_folder();
 
 // The targets by subject; target.cpp lists them.

@@ -36,6 +36,13 @@ TEST(Errors, AProblemIsPrintedWithCodePlaceCauseAndHint) {
             "hint: delete the feature or move an end\n");
 }
 
+TEST(Errors, WordsOfAMegabyteInAFileMakeNoMessageOfAMegabyte) {
+  const std::string text =
+      to_string({errors::kUsage, std::string(1000000, 'x'), std::string(1000000, 'y'), "look"});
+  EXPECT_LT(text.size(), 5000U);
+  EXPECT_NE(text.find("\nhint: look\n"), std::string::npos);
+}
+
 TEST(Errors, TheExitCodeIsTheFirstProblems) {
   const StageError error({{errors::kScanEmpty, "a", "b", ""}, {errors::kCannotWrite, "c", "d", ""}});
   EXPECT_EQ(error.exit_code(), ExitCode::kInput);

@@ -26,7 +26,7 @@ WallLines example() {
   lines.frame.origin[0] = 500000.125;
   lines.bbox_min = {-1, -1};
   lines.bbox_max = {5, 4};
-  lines.base_sha256 = "abc";
+  lines.base_sha256 = std::string(64, 'a');
   lines.lines = {make_line("w0002", {4, 3}, {0, 3.0000004}), make_line("w0001", {0, 0}, {4, 0})};
   WallLine& second = lines.lines[0];
   second.source = LineSource::kRefined;
@@ -71,7 +71,7 @@ TEST(WallLinesIo, EverythingComesBackSortedByIdWithSixDecimals) {
   EXPECT_FALSE(file.content.lines[0].levels.has_value());
   EXPECT_EQ(file.content.frame.origin[0], 500000.125);
   EXPECT_EQ(file.content.bbox_max, Vec2(5, 4));
-  EXPECT_EQ(file.content.base_sha256, "abc");
+  EXPECT_EQ(file.content.base_sha256, std::string(64, 'a'));
   EXPECT_EQ(file.provenance.stage, "detect_lines");
 }
 
