@@ -57,7 +57,7 @@ final    := 90_final/cells.h5 90_final/weights.h5 90_final/data_terms.h5 90_fina
 openings := 95_find_openings/openings.geojson
 
 $(eval $(call stage,ingest,ingest,$(cloud),scan inputs/scan.options inputs/stations.txt,\
-  --scan "$$$$ROOMCUT_SCAN" --up "$$$$ROOMCUT_UP" --unit "$$$$ROOMCUT_UNIT" --columns="$$$$ROOMCUT_COLUMNS" --level "$$$$ROOMCUT_LEVEL" \
+  --scan "$$$$ROOMCUT_SCAN" --up "$$$$ROOMCUT_UP" --unit "$$$$ROOMCUT_UNIT" $$$${ROOMCUT_COLUMNS:+--columns="$$$$ROOMCUT_COLUMNS"} --level "$$$$ROOMCUT_LEVEL" \
   $$$$(test ! -s inputs/stations.txt || echo --stations inputs/stations.txt)))
 $(eval $(call stage,slice,slice,$(slices),$(cloud)))
 $(eval $(call stage,detect_lines,detect_lines,$(lines_30) 30_detect_lines/hough.h5,$(slices)))

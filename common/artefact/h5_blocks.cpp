@@ -4,7 +4,6 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#define XXH_INLINE_ALL  // faster, and nothing to link
 #include <xxhash.h>
 
 #include <algorithm>

@@ -113,19 +113,6 @@ TEST(AtomicFile, is_refused_where_nothing_can_be_written) {
   EXPECT_EQ(code_of([&] { AtomicFile(folder / "folder").commit(); }), "O01");
 }
 
-TEST(AtomicFile, that_cannot_be_put_in_place_says_so_with_a_remedy_whatever_the_reason) {
-  const TemporaryFolder folder;
-  AtomicFile file(folder / "a.txt");
-  std::filesystem::remove(file.temporary_path());
-  try {
-    file.commit();
-    FAIL() << "nothing was put in place";
-  } catch (const StageError& error) {
-    EXPECT_EQ(error.problems().front().code.id, std::string("O01"));
-    EXPECT_NE(error.problems().front().hint, "");
-  }
-}
-
 TEST(AtomicFile, never_takes_the_place_of_a_device_a_pipe_or_a_folder) {
   const TemporaryFolder folder;
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
@@ -135,6 +122,19 @@ TEST(AtomicFile, never_takes_the_place_of_a_device_a_pipe_or_a_folder) {
   }
   EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
   EXPECT_EQ(files_in(folder.path()), 2U);
+}
+
+TEST(AtomicFile, that_cannot_be_put_in_place_says_so_with_a_remedy_whatever_the_reason) {
+  const TemporaryFolder folder;
+  AtomicFile file(folder / "a.txt");
+  std::filesystem::create_directories(folder / "a.txt/in the way");
+  try {
+    file.commit();
+    FAIL() << "a folder was replaced";
+  } catch (const StageError& error) {
+    EXPECT_EQ(error.problems().front().code.id, std::string("O01"));
+    EXPECT_NE(error.problems().front().hint, "");
+  }
 }
 
 TEST(AtomicFile, is_removed_when_the_disk_is_full) {
