@@ -4,6 +4,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#define XXH_STATIC_LINKING_ONLY  // a state that needs no allocation
 #include <xxhash.h>
 
 #include <algorithm>
