@@ -218,8 +218,7 @@ class PlyReader {
           extras[1] = static_cast<double>(whole(v, INT16_MIN, INT16_MAX, "a face's storey"));
         }
         if (property.name == "region") {
-          const double last = std::min(static_cast<double>(element.count) - 1, 2147483647.0);
-          extras[2] = static_cast<double>(whole(v, 0, last, "a face's region"));
+          extras[2] = static_cast<double>(whole(v, INT32_MIN, INT32_MAX, "a face's region"));
         }
       }
       const std::size_t triangles = append_face(mesh_, corners, name_);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <filesystem>
+#include <string>
 
 #include "common/cloud/cloud_io.h"
+#include "common/errors/codes.h"
 #include "common/geometry/level_turn.h"
 #include "common/mesh/mesh_io.h"
 #include "stages/report/page_blocks.h"
@@ -11,9 +14,21 @@ namespace roomcut {
 
 namespace {
 
+/// Numbers of regions become indices here; extract counts them from 0.
+void check_regions(const TriangleMesh& model, const std::filesystem::path& path) {
+  for (const std::int32_t region : model.region) {
+    if (region < 0 || static_cast<std::size_t>(region) >= model.triangles.size()) {
+      throw StageError(errors::kMeshFormat, path.string(),
+                       "a face belongs to region " + std::to_string(region) + ", which no model has",
+                       "`make run` makes it again");
+    }
+  }
+}
+
 /// The model in local metres: model.ply has the frame's origin added, and stands as the scan does.
 TriangleMesh local_model(const StageRun& run, const Frame& frame) {
   TriangleMesh model = read_mesh(run.input("model"));
+  check_regions(model, run.input("model"));
   const Eigen::Matrix3d turn = level_turn(frame.level);
   for (Vec3& vertex : model.vertices) {
     vertex = turn * (vertex - Vec3(frame.origin[0], frame.origin[1], frame.origin[2]));

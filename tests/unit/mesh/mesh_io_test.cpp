@@ -30,7 +30,7 @@ TEST(MeshIo, PlyKeepsDoublesKindStoreyAndRegion) {
   for (std::size_t t = 0; t < 12; ++t) {
     mesh.kind.push_back(static_cast<std::uint8_t>(t % 3));
     mesh.storey.push_back(static_cast<std::int16_t>(t % 2));
-    mesh.region.push_back(static_cast<std::int32_t>(7 * t % 12));
+    mesh.region.push_back(static_cast<std::int32_t>(1000 * t));
   }
   const TriangleMesh back = parse_mesh(ply_bytes(mesh, {0, 0, 0}, {"a comment"}), "m.ply");
   EXPECT_EQ(back.vertices, mesh.vertices);
