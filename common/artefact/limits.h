@@ -9,7 +9,7 @@
 namespace roomcut::limits {
 
 inline constexpr double kFarthest_m = 1e6;       ///< coordinates in the local frame, heights, lengths
-inline constexpr double kLargestExtent_m = 1e5;  ///< of a scan's box along any axis
+inline constexpr double kLargestExtent_m = 5e3;  ///< of a scan's box along any axis; `ingest` takes 2 km
 inline constexpr double kLargestArea_m2 = 1e10;
 inline constexpr double kDensest = 1e12;         ///< points per square metre
 inline constexpr double kSmallestEdge_m = 1e-3;  ///< of voxels, tiles, cells and bins that indices count
