@@ -36,6 +36,9 @@ namespace {
   } catch (const std::bad_alloc&) {
     end_out_of_memory();
   } catch (const std::exception& error) {
+    if (std::string_view(error.what()).starts_with("pthread_create")) {  // oneTBB, whose threads need some too
+      end_out_of_memory();
+    }
     const std::string text = std::string("unexpected: ") + error.what() + "\n";
     [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, text.data(), text.size());
   } catch (...) {  // nothing can be told of it

@@ -53,7 +53,7 @@ CloudHeader read_cloud_header(const H5Reader& file) {
   header.frame = file.frame();
   header.points = file.shape(layout::kX)[0];
   read_box(file, layout::kBoxMin, layout::kBoxMax, header.bbox_min, header.bbox_max);
-  header.noise_m = read_number(file, layout::kNoise, 0, kFarthest_m);
+  header.noise_m = read_number(file, layout::kNoise, 0, kLargestNoise_m);
   header.density = read_number(file, layout::kDensity, 0, kDensest);
   header.tile_edge_m = read_number(file, layout::kTileEdge, kSmallestEdge_m, kLargestEdge_m);
   header.voxel_edge_m = read_number(file, layout::kVoxelEdge, kSmallestEdge_m, kLargestEdge_m);

@@ -164,7 +164,7 @@ Slices read_slices(const std::filesystem::path& path, bool grids) {
   Slices slices;
   slices.frame = file.frame();
   read_box(file, "bbox_min", "bbox_max", slices.bbox_min, slices.bbox_max);
-  slices.noise_m = read_number(file, "noise", 0, kFarthest_m);
+  slices.noise_m = read_number(file, "noise", 0, limits::kLargestNoise_m);
   slices.density = read_number(file, "density", 0, limits::kDensest);
   slices.tau_m = read_number(file, "tau", limits::kSmallestEdge_m, limits::kLargestEdge_m);
   slices.histogram.z0 = read_number(file, "histogram/z0", -kFarthest_m, kFarthest_m);
