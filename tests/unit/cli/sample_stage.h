@@ -40,6 +40,7 @@ inline Outcome run_sample(
   std::vector<std::string> words{info.name};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
+  argv.reserve(words.size() + 1);
   for (std::string& word : words) {
     argv.push_back(word.data());
   }
