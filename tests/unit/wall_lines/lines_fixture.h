@@ -33,7 +33,7 @@ inline std::filesystem::path save(const std::filesystem::path& path, const std::
   return path;
 }
 
-inline WallLine make_line(const std::string& id, Vec2 a, Vec2 b) {
+inline WallLine make_line(const std::string& id, const Vec2& a, const Vec2& b) {
   WallLine line;
   line.id = id;
   line.a = a;
