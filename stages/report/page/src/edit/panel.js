@@ -178,7 +178,6 @@ export class EditPanel {
     this.begun = Date.now();
     this.progress.hidden = false;
     for (;;) {
-      await new Promise((resolve) => setTimeout(resolve, kPoll_ms));
       const state = await this.server.progress();
       this.progress.value = state.of > 0 ? state.done / state.of : 0;
       this.say(state.running ? `${state.stage ?? "starting"} (${state.done} of ${state.of})` : "");
@@ -186,6 +185,7 @@ export class EditPanel {
         this.finish(state);
         return;
       }
+      await new Promise((resolve) => setTimeout(resolve, kPoll_ms));
     }
   }
 
