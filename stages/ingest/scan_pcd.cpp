@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <vector>
 
 #include "common/errors/codes.h"
 #include "stages/ingest/lzf.h"
@@ -18,6 +19,7 @@ namespace roomcut {
 namespace {
 
 constexpr std::uint64_t kShortestPoint = 6;      // "0 0 0" and a line break
+constexpr std::uint64_t kLargestPage = 65'536;   // bytes
 constexpr std::uint64_t kLargestExpansion = 88;  // three bytes of LZF are at most 264
 constexpr std::array<const char*, 6> kNames{"x", "y", "z", "normal_x", "normal_y", "normal_z"};
 
@@ -122,9 +124,23 @@ RecordLayout layout_of(const ScanBytes& file, const PcdHeader& header, const std
   return layout;
 }
 
+/// Whether zeros fill up the last page behind the points, as PCL leaves them there.
+bool is_padded(const ScanBytes& file, const PcdHeader& header) {
+  std::uint64_t points = 0, end = 0;
+  if (__builtin_mul_overflow(header.points, header.record_bytes(), &points) ||
+      __builtin_add_overflow(header.data_offset, points, &end) || end >= file.size() ||
+      file.size() - end >= kLargestPage) {
+    return false;
+  }
+  std::vector<unsigned char> rest(file.size() - end);
+  return file.read(end, rest.data(), rest.size()) == rest.size() &&
+         std::all_of(rest.begin(), rest.end(), [](unsigned char byte) { return byte == 0; });
+}
+
 std::unique_ptr<ScanReader> binary_reader(const std::shared_ptr<const ScanBytes>& file,
                                           const PcdHeader& header, const std::array<int, 6>& fields) {
-  const std::uint64_t rest = file->size() - header.data_offset;
+  std::uint64_t rest = file->size() - header.data_offset;
+  if (is_padded(*file, header)) rest = header.points * header.record_bytes();
   const std::uint64_t held = rest / header.record_bytes();
   if (held != header.points) {
     wrong_count(*file, header, std::to_string(held));

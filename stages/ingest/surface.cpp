@@ -19,10 +19,12 @@ constexpr std::uint32_t kParentHas =
     48;  // a level is fine enough when its parent's neighbourhood holds so many:
          // four times the 12 that a neighbourhood should hold. Asking the parent,
          // not the count itself, keeps the areas free of a selection bias
-constexpr std::uint32_t kWellFilled = 20;  // points for a noise estimate
-constexpr float kFlat_m = 0.02F;           // scatter of a plane that shows how it leans
-constexpr double kClearPlane = 0.15;       // lambda0 / lambda1 for a noise estimate
-constexpr double kLineShare = 0.01;  // lambda1 below this share of the neighbourhood's edge squared: a line
+constexpr std::uint32_t kWellFilled = 20;     // points for a noise estimate
+constexpr float kFlat_m = 0.02F;              // scatter of a plane that shows how it leans
+constexpr double kClearPlane = 0.15;          // lambda0 / lambda1 for a noise estimate
+constexpr std::uint32_t kFewestInLayer = 12;  // points for a plane in a layer of voxels
+constexpr float kLayerPlane = 0.02F;  // lambda0 / lambda1 of one: points strewn all over a layer have 0.11
+constexpr double kLineShare = 0.01;   // lambda1 below this share of the neighbourhood's edge squared: a line
 constexpr double kLargestTilt =
     0.0027;  // (3 degrees)^2: a less certain direction is asked from a coarser voxel
 double whole_area(const Plane& plane, SurfaceClass surface, const Spread& spread, double units_per_edge,
@@ -118,11 +120,14 @@ void add_lean(const VoxelSurface& surface, LeanSums& sums) {
   }
 }
 
-NeighbourSum accumulate(const VoxelLevel& level, std::uint16_t z, Neighbourhood& around) {
+/// The sum over the voxels of the neighbourhood that `layers` has, a bit for each height: below, own, above.
+NeighbourSum accumulate(const VoxelLevel& level, std::uint16_t z, Neighbourhood& around,
+                        unsigned layers = 0b111) {
   MomentSum moments;
   VoxelMask mask = 0;
   const Moments* const first = level.moments.data();
   around.visit(z, [&](std::uint32_t voxel, int bit) {
+    if ((layers >> (bit % 3) & 1U) == 0) return;
     moments.add(first[voxel]);
     mask |= VoxelMask{1} << bit;
   });
@@ -178,16 +183,42 @@ VoxelSurface surface_of(const NeighbourSum& sum, const std::array<std::uint32_t,
   return result;
 }
 
+/// The surface of a coarse voxel. A neighbourhood that holds two floors or ceilings, both sides of a slab, is
+/// no plane; its own layer of voxels, with the one below or above if the surface lies in both, still may be
+/// one.
+VoxelSurface SurfaceFinder::fit_coarse(const TileGrid& grid, const UnitScale& scale, int level,
+                                       std::uint32_t voxel, int ix, int iy) const {
+  const VoxelLevel& voxels = grid.level(level);
+  const std::uint16_t z = voxels.z[voxel];
+  const auto fit = [&](unsigned layers) {
+    Neighbourhood around(voxels, ix, iy);
+    const NeighbourSum sum = accumulate(voxels, z, around, layers);
+    const VoxelSurface surface = surface_of(sum, grid.centre(level, ix, iy, z),
+                                            scale.voxel_edge_m() * (1 << level), scale.unit_m(), params_);
+    return std::make_pair(surface, sum.moments.points());
+  };
+  const auto [all, points] = fit(0b111);
+  if (!all.resolved || all.surface != SurfaceClass::kNone || points < 2 * kFewestInLayer) {
+    return all;
+  }
+  VoxelSurface best = all;
+  std::uint32_t most = kFewestInLayer - 1;
+  for (const unsigned layers : {0b010U, 0b011U, 0b110U}) {
+    const auto [surface, n] = fit(layers);
+    if (n > most && surface.surface == SurfaceClass::kHorizontal &&
+        surface.tilt_variance * static_cast<float>(n) < kLayerPlane) {
+      best = surface;
+      most = n;
+    }
+  }
+  return best;
+}
+
 const VoxelSurface& SurfaceFinder::at_coarse(const TileGrid& grid, const UnitScale& scale, int level,
                                              std::uint32_t voxel, int ix, int iy) {
   Cached& cached = cache_[static_cast<std::size_t>(level)][voxel];
   if (!cached.known) {
-    const VoxelLevel& voxels = grid.level(level);
-    Neighbourhood around(voxels, ix, iy);
-    const NeighbourSum sum = accumulate(voxels, voxels.z[voxel], around);
-    cached.surface = surface_of(sum, grid.centre(level, ix, iy, voxels.z[voxel]),
-                                scale.voxel_edge_m() * (1 << level), scale.unit_m(), params_);
-    cached.known = true;
+    cached = {fit_coarse(grid, scale, level, voxel, ix, iy), true};
   }
   return cached.surface;
 }
@@ -208,10 +239,7 @@ void SurfaceFinder::survey(const TileGrid& grid, const UnitScale& scale, int lev
       around.visit(voxels.z[voxel], [&](std::uint32_t other, int) { count += voxels.points[other]; });
       counts[voxel] = count;
       if (count < kParentHas && parent_is_full(voxel)) {
-        const NeighbourSum sum = accumulate(voxels, voxels.z[voxel], around);
-        cache[voxel] = {surface_of(sum, grid.centre(level, ix, iy, voxels.z[voxel]),
-                                   scale.voxel_edge_m() * (1 << level), scale.unit_m(), params_),
-                        true};
+        cache[voxel] = {fit_coarse(grid, scale, level, voxel, ix, iy), true};
       }
     }
   });

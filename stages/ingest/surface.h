@@ -54,6 +54,8 @@ class SurfaceFinder {
   };
   /// Counts the neighbourhoods of a coarse level; fits those that will be asked for certainly.
   void survey(const TileGrid& grid, const UnitScale& scale, int level);
+  VoxelSurface fit_coarse(const TileGrid& grid, const UnitScale& scale, int level, std::uint32_t voxel,
+                          int ix, int iy) const;
   const VoxelSurface& at_coarse(const TileGrid& grid, const UnitScale& scale, int level, std::uint32_t voxel,
                                 int ix, int iy);
   /// The surface of voxel `voxel` at its own level 0 or at that of one of its ancestors.

@@ -144,6 +144,14 @@ TEST_F(WithScratch, refuses_other_numbers_of_points_than_promised) {
   EXPECT_EQ(stray->warnings().size(), 1U);
 }
 
+TEST_F(WithScratch, takes_zeros_behind_binary_points_for_the_filled_up_page_of_PCL) {
+  const auto padded = open(binary_header("binary") + records() + std::string(3856, '\0'));
+  EXPECT_TRUE(padded->warnings().empty());
+  expect_points(read_all(*padded));
+  EXPECT_EQ(code(binary_header("binary") + records() + std::string(3855, '\0') + "x"), "C05");
+  EXPECT_EQ(code(binary_header("binary") + records() + std::string(100'000, '\0')), "C05");
+}
+
 TEST_F(WithScratch, refuses_headers_it_cannot_follow_and_names_the_line) {
   std::string text;
   EXPECT_EQ(

@@ -126,6 +126,31 @@ TEST(SurfaceClasses, are_none_where_a_sparse_neighbourhood_holds_a_floor_and_a_w
   EXPECT_LT(static_cast<double>(sloped) / static_cast<double>(near), 0.1);
 }
 
+TEST(SurfaceClasses, tell_a_ceiling_from_the_floor_above_it_in_sparse_scans) {
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::normal_distribution<double> error(0, 0.004);
+  constexpr int kDensity = 58;  // neighbourhoods of 60 cm hold both faces of the slab
+  for (const double thickness : {0.25, 0.3, 0.4}) {
+    for (const double height : {2.50, 2.57, 2.6, 2.73}) {
+      std::vector<Vec3> points;
+      for (int i = 0; i < 2 * 36 * kDensity; ++i) {
+        points.emplace_back(6 * unit(random), 6 * unit(random), height + (i % 2) * thickness + error(random));
+      }
+      std::size_t level = 0;
+      double area = 0;
+      for_points(make_cloud(MemoryScan(points)),
+                 [&](const Vec3&, SurfaceClass surface, std::uint8_t, double a) {
+                   level += surface == SurfaceClass::kHorizontal ? 1 : 0;
+                   area += surface == SurfaceClass::kHorizontal ? a : 0;
+                 });
+      EXPECT_GT(static_cast<double>(level), 0.95 * static_cast<double>(points.size()))
+          << thickness << " " << height;
+      EXPECT_NEAR(area, 72, 10) << thickness << " " << height;
+    }
+  }
+}
+
 TEST(SurfaceClasses, of_points_all_over_a_volume_are_none) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> unit(0, 2);
