@@ -96,7 +96,7 @@ void report(StageRun& run, const TiledScan& scan, const SurfaceSummary& summary,
 StageInfo ingest_info() {
   StageInfo info;
   info.name = "ingest";
-  info.revision = 4;
+  info.revision = 5;
   info.summary = "Reads a raw scan; finds surface class, azimuth, noise and density from sums in voxels.";
   info.inputs = {
       {"scan", "", "The scan: PLY, E57, LAS, LAZ, PCD, PTX or text (.xyz .txt .csv .pts .asc)"},

@@ -23,8 +23,10 @@ constexpr std::uint32_t kWellFilled = 20;     // points for a noise estimate
 constexpr float kFlat_m = 0.02F;              // scatter of a plane that shows how it leans
 constexpr double kClearPlane = 0.15;          // lambda0 / lambda1 for a noise estimate
 constexpr std::uint32_t kFewestInLayer = 12;  // points for a plane in a layer of voxels
-constexpr float kLayerPlane = 0.02F;  // lambda0 / lambda1 of one: points strewn all over a layer have 0.11
-constexpr double kLineShare = 0.01;   // lambda1 below this share of the neighbourhood's edge squared: a line
+/// How the two faces of a slab may lie in a neighbourhood's three layers, the voxel's own and the other one.
+constexpr std::array<std::pair<unsigned, unsigned>, 4> kSlabLayers{
+    {{0b010, 0b100}, {0b010, 0b001}, {0b011, 0b100}, {0b110, 0b001}}};
+constexpr double kLineShare = 0.01;  // lambda1 below this share of the neighbourhood's edge squared: a line
 constexpr double kLargestTilt =
     0.0027;  // (3 degrees)^2: a less certain direction is asked from a coarser voxel
 double whole_area(const Plane& plane, SurfaceClass surface, const Spread& spread, double units_per_edge,
@@ -134,6 +136,11 @@ NeighbourSum accumulate(const VoxelLevel& level, std::uint16_t z, Neighbourhood&
   return {moments.total(), mask};
 }
 
+/// Standard deviation of the points off their best plane [units].
+double scatter_of(const NeighbourSum& sum, const std::array<std::uint32_t, 3>& centre) {
+  return std::sqrt(plane_of(spread_of(sum.moments, centre)).lambda0);
+}
+
 }  // namespace
 
 VoxelSurface surface_of(const NeighbourSum& sum, const std::array<std::uint32_t, 3>& centre,
@@ -183,32 +190,40 @@ VoxelSurface surface_of(const NeighbourSum& sum, const std::array<std::uint32_t,
   return result;
 }
 
-/// The surface of a coarse voxel. A neighbourhood that holds two floors or ceilings, both sides of a slab, is
-/// no plane; its own layer of voxels, with the one below or above if the surface lies in both, still may be
-/// one.
+/// The surface of a coarse voxel. A neighbourhood that holds a ceiling and the floor above it, both sides of
+/// a slab, is no plane; its own layer of voxels, with the next one if the surface lies in both, is one then,
+/// and so is the rest.
 VoxelSurface SurfaceFinder::fit_coarse(const TileGrid& grid, const UnitScale& scale, int level,
                                        std::uint32_t voxel, int ix, int iy) const {
   const VoxelLevel& voxels = grid.level(level);
   const std::uint16_t z = voxels.z[voxel];
-  const auto fit = [&](unsigned layers) {
+  const std::array<std::uint32_t, 3> centre = grid.centre(level, ix, iy, z);
+  const auto sum_of = [&](unsigned layers) {
     Neighbourhood around(voxels, ix, iy);
-    const NeighbourSum sum = accumulate(voxels, z, around, layers);
-    const VoxelSurface surface = surface_of(sum, grid.centre(level, ix, iy, z),
-                                            scale.voxel_edge_m() * (1 << level), scale.unit_m(), params_);
-    return std::make_pair(surface, sum.moments.points());
+    return accumulate(voxels, z, around, layers);
   };
-  const auto [all, points] = fit(0b111);
-  if (!all.resolved || all.surface != SurfaceClass::kNone || points < 2 * kFewestInLayer) {
+  const auto fit = [&](const NeighbourSum& sum) {
+    return surface_of(sum, centre, scale.voxel_edge_m() * (1 << level), scale.unit_m(), params_);
+  };
+  const auto is_level = [&](const NeighbourSum& sum, const VoxelSurface& surface) {
+    return surface.surface == SurfaceClass::kHorizontal && surface.whole &&
+           scatter_of(sum, centre) * scale.unit_m() < kFlat_m;
+  };
+  const NeighbourSum sum = sum_of(0b111);
+  const VoxelSurface all = fit(sum);
+  if (!all.resolved || all.surface != SurfaceClass::kNone || sum.moments.points() < 2 * kFewestInLayer) {
     return all;
   }
   VoxelSurface best = all;
   std::uint32_t most = kFewestInLayer - 1;
-  for (const unsigned layers : {0b010U, 0b011U, 0b110U}) {
-    const auto [surface, n] = fit(layers);
-    if (n > most && surface.surface == SurfaceClass::kHorizontal &&
-        surface.tilt_variance * static_cast<float>(n) < kLayerPlane) {
+  for (const auto& [own, other] : kSlabLayers) {
+    const NeighbourSum near = sum_of(own);
+    if (near.moments.points() <= most) continue;
+    const VoxelSurface surface = fit(near);
+    const NeighbourSum beyond = sum_of(other);
+    if (is_level(near, surface) && is_level(beyond, fit(beyond))) {
       best = surface;
-      most = n;
+      most = near.moments.points();
     }
   }
   return best;
