@@ -59,7 +59,7 @@ class Content {
   /// with those, not with their bytes.
   std::string payload_sha256() const;
 
-  /// What the file says of itself: type, version, payload digest; empty where it does not.
+  /// Type, version and payload digest as stated in the file; empty where they are missing.
   InputRecord stated() const;
 
   const std::filesystem::path& path() const { return path_; }

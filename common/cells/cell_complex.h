@@ -95,8 +95,8 @@ struct FaceWeights {
   std::vector<Vec3> stations;  ///< scanner positions, where the scan names them [m]
 };
 
-/// Evidence and data term per cell (paper §2, data term). Every evidence is kept, so that one sees why a cell
-/// came out.
+/// Evidence and data term per cell (paper §2, data term). Every measure is kept, to explain why a cell came
+/// out empty or solid.
 struct DataTerms {
   /// Sets all values to 0, as many as the complex has cells and faces.
   void reset(const CellComplex& complex);
@@ -110,7 +110,7 @@ struct DataTerms {
   std::vector<float> surface_m2;
   std::vector<float>
       behind;  ///< share of the rays that end close by on a face's back, 0 … 1: inside a wall or slab
-  std::vector<float> thin;      ///< how far the cell is as thin as walls and slabs are, 0 … 1
+  std::vector<float> thin;      ///< 1 = as thin as walls and slabs, 0 = wider than any
   std::vector<float> in_slab;   ///< backs close by straight up and down, 0 … 1
   std::vector<float> open;      ///< share of the level rays that meet nothing, beyond a fifth
   std::vector<float> outdoors;  ///< share of the columns with nothing below times that with nothing above

@@ -8,8 +8,7 @@
 
 namespace roomcut {
 
-/// What is right and wrong with a triangle mesh, as it is indexed (weld_vertices() first to judge by
-/// coordinates).
+/// The faults of a triangle mesh, as it is indexed (weld_vertices() first to judge by coordinates).
 struct MeshCheck {
   std::int64_t vertices = 0, edges = 0, triangles = 0;
   std::int64_t degenerate_triangles = 0;  ///< a corner twice, or no area (exact)

@@ -30,8 +30,8 @@ std::optional<FileState> file_state(const std::filesystem::path& path);
 /// are.
 std::string to_text(const FileState& state);
 
-/// What the file system of `folder` takes for now: the ctime of a file that is touched there; with the
-/// device. None when the folder cannot be written.
+/// The present moment by the clock of the file system of `folder`: the ctime of a file that is touched there;
+/// with the device. None when the folder cannot be written.
 struct FileSystemNow {
   FileTime time;
   unsigned long long device = 0;

@@ -33,7 +33,7 @@ struct OccupancyGrid {
   std::vector<float> x, y;           ///< centroid of the cell's points [m]
   std::vector<float> coverage;  ///< share of the slice's height that is occupied, density-corrected, 0 … 1
   std::vector<float>
-      weight_m;  ///< length of wall the cell speaks for: coverage × tau × min(1, height / 0.25 m) [m]
+      weight_m;  ///< length of wall for which the cell counts: coverage × tau × min(1, height / 0.25 m) [m]
   std::vector<float> area_m2;         ///< surface that the cell's points stand for: its weight in a fit [m^2]
   std::vector<std::uint8_t> azimuth;  ///< mean azimuth of the wall points, in the steps of common/cloud
   std::vector<std::uint8_t> azimuth_trust;  ///< 0 = no wall points, 255 = all agree

@@ -20,7 +20,7 @@ inline bool same_geometry(const WallLine& a, const WallLine& b) {
   return end_distance(a, b) <= kSameLine_m;
 }
 
-/// How far a line went from where the base has it.
+/// How far a line was moved from its place in the base.
 struct LineMove {
   std::string id;
   double offset_m = 0;   ///< distance of the new line from the old support's centre

@@ -13,7 +13,7 @@
 // that a person sees all problems of the file at once.
 namespace roomcut {
 
-/// What the reader has to say of a hand-edited file.
+/// Problems and warnings found in a hand-edited file.
 struct EditReport {
   std::string path;
   std::vector<Problem> problems;

@@ -20,14 +20,15 @@ struct Acceptance {
   std::vector<WallLine> only_edited;    ///< … and of the edit that the detection has nothing near
 };
 
-/// The door for hand edits. `detection_sha256` is the payload digest of the detected lines; the result
-/// carries the digest of the detection that its lines began from as base_sha256, so that a copy of it can be
-/// edited again. An edit that doesn't name its base counts as begun from this detection.
+/// Accepts the edit if there is one, otherwise the detection. `detection_sha256` is the payload digest of the
+/// detected lines; the result carries the digest of the detection that its lines began from as base_sha256,
+/// so that a copy of it can be edited again. An edit that doesn't name its base counts as begun from this
+/// detection.
 Acceptance accept_lines(const WallLines& detected, const std::string& detection_sha256,
                         const std::optional<WallLines>& edit);
 
-/// Lines of `lines` to which `others` has none within 3 cm and 2 degrees over a common stretch: closer than
-/// any two faces of a wall, wider than what a repeated detection shifts.
+/// Those of `lines` that have no partner in `others` within 3 cm and 2 degrees over a common stretch: closer
+/// than any two faces of a wall, wider than a repeated detection shifts a line.
 std::vector<WallLine> without_partner(const std::vector<WallLine>& lines,
                                       const std::vector<WallLine>& others);
 

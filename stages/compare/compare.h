@@ -16,7 +16,7 @@ struct ParameterDifference {
   std::string a, b;
 };
 
-/// Things of both runs that are the same thing, by index, and those that only one of them has.
+/// Indices of what both runs have, as pairs, and of what only one of them has.
 struct Matches {
   std::vector<std::pair<std::size_t, std::size_t>> both;
   std::vector<std::size_t> only_a, only_b;

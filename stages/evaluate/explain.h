@@ -77,7 +77,7 @@ struct LabelledCells {
 struct ExplainInput {
   const CellComplex& complex;
   const std::vector<std::uint8_t>& label;  ///< per cell
-  const DataTerms* terms;                  ///< may be null: evidences are 0 then
+  const DataTerms* terms;                  ///< may be null: the evidence is 0 then
   const Columns& truth;
   const Columns& model;  ///< of the cells labelled empty, openings cut
   const MeasuredSurface& truth_surface;

@@ -35,12 +35,12 @@ inline constexpr double kColumn_m = 0.05;  ///< of the walls' rasters
 ///  - beside both jambs, and above the head, one of the two faces is covered: there the wall goes on;
 ///  - the wall stands, with rooms on both sides, from the floor to beyond the head and beyond the jambs;
 ///    where the cut has left a gap in it, a lintel with points has to prove it.
-/// Evidence in part makes no opening. `levels` as in CellComplex. Ids and walls are left empty.
+/// Partial evidence makes no opening. `levels` as in CellComplex. Ids and walls are left empty.
 std::vector<Opening> find_openings_in(const RoomWall& wall, const WallRasters& rasters,
                                       const std::vector<double>& levels, const FindOpeningsParams& params,
                                       const OpeningTolerances& tolerances);
 
-/// Heads that differ by less than noise explains (4 mm or 3 standard deviations) become one height, their
+/// Heads that differ by no more than the noise explains (4 mm or 3 standard deviations) get one height, their
 /// mean: the doors of a storey mostly have one, and each further height is a level of the model. Heads at a
 /// level (openings up to the ceiling) stay.
 void join_heads(std::vector<Opening>& openings, const std::vector<double>& levels);

@@ -11,7 +11,7 @@
 
 namespace roomcut {
 
-/// What the points say about one wall: rasters over (t along face a, z). Rows are row_m high and start at z0.
+/// The evidence on one wall: rasters over (t along face a, z). Rows are row_m high and start at z0.
 struct WallRasters {
   static constexpr std::size_t kFine = 5;  ///< bins per column of RoomWall
   double z0 = 0, row_m = 0, bin_m = 0;     ///< bins are bin_m long, in t and in z

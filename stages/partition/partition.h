@@ -19,7 +19,7 @@ struct Partition {
 /// by the wall lines and stacks it between the levels [m, ascending, at least 2]. Lines are cut in by falling
 /// support (ties: id), each through the faces that its support, lengthened by extend_m at both ends, enters.
 /// Pure function of its arguments. Throws StageError: kNoCells without lines, kLinesDegenerate,
-/// kLinesProperty (a wall slice that there is not), kTooComplex.
+/// kLinesProperty (a wall slice that does not exist), kTooComplex.
 Partition partition(const WallLines& lines, const std::vector<double>& levels, const PartitionParams& params);
 
 }  // namespace roomcut

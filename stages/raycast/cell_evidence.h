@@ -17,7 +17,7 @@ struct FirstHit {
   void add(const FirstHit& other, double weight);
 };
 
-/// What speaks for a cell being empty or solid. Each measure by itself; combined in raycast.cpp.
+/// Evidence for a cell being empty or solid: each measure by itself. raycast.cpp combines them.
 struct CellEvidence {
   double kappa = 0;    ///< share of counted rays with an odd number of permanent faces (omega > 1/2)
   double winding = 0;  ///< mean of their signed crossings, fronts - backs
@@ -33,15 +33,17 @@ struct CellEvidence {
   double height_m = 0;
   double carved = 0;  ///< share of it that a scanner looked through; 0 when no position is known
 
-  /// How far the cell is as thin as walls and slabs are, 0 … 1.
+  /// 1 for a cell as thin as walls and slabs, 0 for one wider than any, between them linear.
   double thin() const;
-  /// Level rays that meet nothing, beyond a fifth: rooms are closed all around but for windows and doors.
+  /// Share of the level rays that meet nothing, above a fifth: a room is closed all around but for windows
+  /// and doors.
   double open() const;
-  /// Neither anything below nor above: outdoors.
+  /// Share of the columns that meet nothing below, times the share that meets nothing above.
   double outdoors() const;
-  /// How far what a scanner looked through counts, 0 … 1 (README: line of sight).
+  /// Share that a scanner looked through, discounted outdoors and inside walls, 0 … 1 (README: line of
+  /// sight).
   double looked_through() const;
-  /// Backs close by straight up and down: inside a slab.
+  /// Share of the columns that end on a back close by, above and below: inside a slab.
   double in_slab() const;
 };
 
@@ -53,8 +55,8 @@ struct RayRules {
   bool parity = false;  ///< crossings are counted along all rays, not only along steep ones
 };
 
-/// Casts rays from random points of the cell. Pure function of its arguments: the random numbers are
-/// counted by cell and ray. `scratch` is reused storage.
+/// Casts rays from random points of the cell. Pure function of its arguments: random numbers depend on cell
+/// and ray only. `scratch` is reused storage.
 CellEvidence gather_evidence(const CellComplex& complex, const FaceWeights& weights, const FaceWalk& walk,
                              std::size_t face, std::size_t layer, const RayRules& rules,
                              std::vector<Crossing>& scratch);

@@ -20,7 +20,7 @@ struct Crossing {
 };
 
 /// The share of a face that is taken for a surface when `omega` of it was seen. Windows, furniture and
-/// shadows hide parts of most walls and floors: what is seen of a face tells what the rest of it is.
+/// shadows hide parts of most walls and floors: the rest of a face is like what was seen of it.
 double completed_share(double omega);
 
 struct Ray {

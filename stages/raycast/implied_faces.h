@@ -8,15 +8,15 @@
 
 namespace roomcut {
 
-/// How far each face is the other side of a wall or slab that was seen from one side only, 0 … 1. What shows
-/// its back has a thickness: a surface must follow behind it, though no point lies there (an opposite room
-/// that was not entered, furniture along the wall). graphcut does not charge such a face for being unseen.
+/// For each face, how certain it is to be the unseen side of a wall or slab, 0 … 1. What shows its back has a
+/// thickness: a surface must follow behind it, though no point lies there (an opposite room that was not
+/// entered, furniture along the wall). graphcut charges a face 1 - implied of what it costs to be unseen.
 struct ImpliedFaces {
   std::vector<float> wall, level;  ///< per wall face and level face of the complex
 };
 
-/// What a back at this distance straight behind a face says [m]: all up to the thickness of common walls and
-/// slabs, nothing beyond that of thick ones.
+/// Weight of a back at this distance straight behind a face [m]: full up to the thickness of common walls and
+/// slabs, zero beyond that of thick ones.
 double thickness_weight(double distance_m);
 
 /// Looks from points of every face straight to both sides. In parallel; the same for any number of threads.

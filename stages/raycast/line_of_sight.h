@@ -13,7 +13,8 @@ namespace roomcut {
 /// positions, local metres; those outside the bounding box are passed over. From each, rays go out evenly in
 /// all directions; a ray passes what was not covered and ends on a front (as far as that was seen: unlike for
 /// other rays nothing is completed). What leaves the building, through windows, carves nothing. No pass over
-/// the points. Serial over stations, so the same for any number of threads.
+/// the points. Stations run in parallel and are multiplied in their order: the same for any number of
+/// threads.
 std::vector<double> carve_lines_of_sight(const CellComplex& complex, const FaceWalk& walk,
                                          const std::vector<Vec3>& stations);
 

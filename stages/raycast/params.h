@@ -8,8 +8,8 @@ namespace roomcut {
 /// Parameters of raycast.
 struct RaycastParams {
   int rays = 64;                      ///< rays per cell: half of them level, half uniform on the sphere
-  std::string evidence = "combined";  ///< "combined": all evidences; "parity": the paper's kappa alone
-  double surface_depth_m = 0.1;  ///< volume per square metre with which a cell's own covered faces speak [m]
+  std::string evidence = "combined";  ///< "combined": all measures; "parity": the paper's kappa alone
+  double surface_depth_m = 0.1;       ///< weight of a cell's own covered faces: volume per square metre [m]
 };
 
 }  // namespace roomcut

@@ -7,7 +7,7 @@
 
 namespace roomcut {
 
-/// Log-odds of a cell being empty: all evidences on one scale (README.md: what each term is there for).
+/// Log-odds of a cell being empty: the weighted sum of all measures (README.md, Weights).
 double empty_log_odds(const CellEvidence& evidence);
 
 /// Data term of every cell (paper §2), in parallel; the same for any number of threads. `weights` must belong

@@ -13,7 +13,7 @@ struct Direction {
   bool takes_part = true;
 };
 
-/// Lines that may be parallel or perpendicular: the data don't say otherwise.
+/// Lines that are parallel or perpendicular as far as their standard deviations tell.
 struct AngleClasses {
   std::vector<double> angle;  ///< of each class, modulo pi/2 [rad]
   std::vector<int> class_of;  ///< per line; -1 = none

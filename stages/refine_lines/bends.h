@@ -25,10 +25,10 @@ struct Bend {
 };
 
 /// Detection loses walls shorter than about half a metre between two that are turned by a few degrees: the
-/// chords of a curved wall. Here the observations tell: where they leave their line steadily, turned by 3 …
-/// 20°, from the line on, over 30 cm or more (on one line or on two that meet there), a wall bends. What
-/// stands beside a line without meeting it (frames, curtains) is none. `layer_height` [m] apportions the
-/// area. Sorted by parent. Deterministic.
+/// chords of a curved wall. A wall bends where the observations leave their line steadily, beginning on it,
+/// turned by 3 … 20°, over 30 cm or more (on one line or on two that meet there). What stands beside a line
+/// without meeting it (frames, curtains) does not count. `layer_height` [m] apportions the area. Sorted by
+/// parent. Deterministic.
 std::vector<Bend> find_bends(const std::vector<FittedLine>& lines, const std::vector<double>& layer_height);
 
 }  // namespace roomcut

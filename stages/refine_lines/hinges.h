@@ -8,7 +8,7 @@
 
 namespace roomcut {
 
-/// Where a wall that one line was laid along bends.
+/// The bend of a wall that detection took for one straight line.
 struct Hinge {
   std::size_t bin = 0;   ///< first of the raster behind the bend
   Line2 before, behind;  ///< least squares through what was observed on both sides

@@ -9,11 +9,10 @@
 namespace roomcut {
 
 /// Cut-off of Tukey's loss in standard deviations: 95 % efficient on normal noise, and what lies beyond has
-/// no pull at all. (Cauchy's loss, tried first, let a curtain before half a wall turn the line by 2 degrees.)
-/// Single fits and Ceres use it.
+/// no pull at all. Single fits and Ceres use it (other losses: EXPERIMENTS.md).
 inline constexpr double kTukeyLoss = 4.685;
 
-/// How far a line may be believed to be from where it came: keeps lines with few observations where they are.
+/// Prior on a line's pose: keeps lines with few observations where they were detected.
 struct LinePrior {
   double shift_m = 0.06;
   double turn_rad = 0.035;

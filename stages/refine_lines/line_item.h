@@ -20,12 +20,12 @@ struct LineItem {
   bool stale = true;  ///< `problem` and `alone` are not of these observations
   bool constant = false;
   bool users = false;
-  bool keeps_ends = false;  ///< of a line of the user's, or a wall seen from one side
+  bool keeps_ends = false;  ///< a hand-edited line, or a wall seen from one side
   double area_m2 = 0;
 };
 
-/// The line as fitted: its ends where it carries surface (a user's also where drawn), its support, rms and
-/// sigmas. A constant one comes back as it is.
+/// The line as fitted: with ends where it carries surface (a hand-edited line also where it was drawn),
+/// support, rms and sigmas. A constant line comes back unchanged.
 WallLine refined(const LineItem& item);
 
 }  // namespace roomcut

@@ -17,7 +17,7 @@ struct LineTrack {
   std::vector<std::uint8_t> fits;   ///< per azimuth step: whether a wall point of that azimuth may lie on it
 };
 
-/// A line with what the loop over points needs of it.
+/// A line, prepared for the loop over points.
 struct NearLine {
   const LineTrack* track;
   const LineFaces* faces;

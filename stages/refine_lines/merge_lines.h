@@ -20,11 +20,11 @@ struct MergeCandidate {
   std::string id;
 };
 
-/// For each candidate the one that it goes into, itself when it stays. A line goes into a stronger one when
-/// both differ by less than `angle_rad`, come within 1 m of each other along the line, and lie closer than
-/// `distance_m`, or, when they share no place and height (another storey), when the distance is not
-/// significant (3 sigma, at least 4 mm). The two faces of a thin wall never merge: solid between them says
-/// that they are two.
+/// For each candidate the index of the one into which it is merged; its own index when it stays. A line goes
+/// into a stronger one when both differ by less than `angle_rad`, come within 4.5 m of each other along the
+/// line, and lie closer than `distance_m`, or, when they share no place and height (another storey), when the
+/// distance is not significant (3 sigma, at least 4 mm). The two faces of a thin wall never merge: solid
+/// between them says that they are two.
 std::vector<std::size_t> find_merges(const std::vector<MergeCandidate>& candidates, double distance_m,
                                      double angle_rad);
 

@@ -16,7 +16,7 @@ namespace roomcut {
 /// Where a wall's surface lies in one patch: a piece of a line, a piece of height.
 struct Observation {
   Vec2 point;          ///< in plan [m]
-  double variance_m2;  ///< of its distance from the line, as the noise and the number of points let expect
+  double variance_m2;  ///< of its distance from the line, expected from noise and number of points
   double scatter_m2;   ///< mean square distance of its points from it
   std::uint32_t points;
   int zone;               ///< piece of height, from below
@@ -38,7 +38,7 @@ struct OffsetHistogram {
   static double mean(std::uint64_t packed);
 };
 
-/// A location and how many points speak for it.
+/// A location, its uncertainty and the number of points behind it.
 struct RobustOffset {
   double offset_m = 0, variance_m2 = 0, scatter_m2 = 0;
   std::uint32_t points = 0;  ///< 0: no location
@@ -49,10 +49,10 @@ struct RobustOffset {
 /// frames and furniture further than c from the wall don't count at all.
 RobustOffset robust_offset(std::span<const std::uint64_t> histogram, double half_m, double noise_m);
 
-/// Collects, in one pass over the points and in any order, what the points say about the lines. A point
-/// belongs to one line only: the nearest one that carries surface at its height and place and whose azimuth
-/// fits within 17 degrees. Points on no plane count too, away from floors and ceilings: beside a thin wall
-/// the neighbourhood of a point reaches through to the other face, more so for points on the inner side, so
+/// Collects, in one pass over the points and in any order, the observations of all lines. A point counts for
+/// one line only: the nearest one that carries surface at its height and place and whose azimuth fits within
+/// 17 degrees. Points on no plane count too, away from floors and ceilings: beside a thin wall the
+/// neighbourhood of a point reaches through to the other face, more so for points on the inner side, so
 /// planes alone would push the two faces apart. Patches are as long as the line's raster and about 50 cm
 /// high, higher where points are sparse (about 20 a patch), and never reach over a level: a wall that leans,
 /// furniture that hides its lower part, and another storey's wall show as patches that differ, not as a

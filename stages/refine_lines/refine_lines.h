@@ -38,8 +38,8 @@ class LineRefiner {
  public:
   /// `label` as Labels::label of `complex`, which `lines` were partitioned into; `noise_m` of the points off
   /// their plane. All are copied or consumed here, except `complex`, which must outlive the refiner. Throws
-  /// StageError(kNoWallLines) when no line carries surface. Walls seen from one side are surface too, and
-  /// their lines stay however little they carry, as long as they were unless they are split.
+  /// StageError(kNoWallLines) when no line carries surface. The lines of walls seen from one side stay
+  /// however little surface they carry, and keep their ends unless they are split.
   LineRefiner(const WallLines& lines, const CellComplex& complex, const std::vector<std::uint8_t>& label,
               double noise_m, double density, const RefineLinesParams& params,
               std::vector<OneSidedWall> one_sided = {}, const CarriedRuns& carried = {});

@@ -18,11 +18,11 @@ struct LinePart {
 };
 
 /// Detection takes walls that lie in a row, or above each other, for one line when they differ by a
-/// centimetre or two. Here their walls are asked: the panels, connected pieces of the surface with the empty
-/// space on one side, are fitted alone; their offsets along the common direction fall into groups wherever
-/// neighbours differ by more than `apart_m` and by more than 4 standard deviations. Largest part first; one
-/// part when the data know no better. Panels with few observations go with the group that they lie nearest
-/// to. `layer_height` [m] apportions the area. Deterministic.
+/// centimetre or two. Here each panel, a connected piece of the surface with the empty space on one side, is
+/// fitted alone; the offsets along the common direction are split into groups wherever neighbours differ by
+/// more than `apart_m` and by more than 4 standard deviations. Largest part first; one part when there is no
+/// significant difference. Panels with few observations go with the group that they lie nearest to.
+/// `layer_height` [m] apportions the area. Deterministic.
 std::vector<LinePart> split_line(const LineFaces& faces, const std::vector<Observation>& observations,
                                  const std::vector<double>& layer_height, const LinePrior& prior,
                                  double apart_m);

@@ -6,10 +6,10 @@
 namespace roomcut {
 
 /// Walls are upright: a wall face too small to have been hit by more than a few points is covered as the one
-/// above or below it in the same wall is, with the weight of three points against those that its own area
-/// lets expect (at the density of that neighbour). So a step of the floor 15 cm high opens no hole in a wall
-/// that a sparse scan happened to miss there. Not across a floor or a ceiling that was seen on the wall's
-/// empty side: there the room ends. Needs all of the wall faces' and the levels' weights. Deterministic.
+/// above or below it in the same wall is, with the weight of three points against the number expected on its
+/// own area (at the neighbour's density). So a step of the floor 15 cm high opens no hole in a wall that a
+/// sparse scan happened to miss there. Not across a floor or a ceiling that was seen on the wall's empty
+/// side: there the room ends. Needs all of the wall faces' and the levels' weights. Deterministic.
 void continue_walls(const CellComplex& complex, FaceWeights& weights);
 
 }  // namespace roomcut

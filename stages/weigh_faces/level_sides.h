@@ -8,7 +8,7 @@
 
 namespace roomcut {
 
-/// What the points beside a level face say of its empty side, in bins.
+/// Evidence for the empty side of a level face, from the points beside it, in bins.
 struct LevelSides {
   double over = 0, under = 0;  ///< bins with points a hand above, below: walls' feet, furniture, lamps
   double open_over = 0,
@@ -23,9 +23,9 @@ struct LevelSides {
   }
 };
 
-/// Per face of the plan the probability that the surface on `level` is a floor, empty above. Faces that no
-/// wall separates are asked together, and where they know little, the rest of the level; a face may still
-/// have its own opinion. Needs wall_omega and level_omega. The lowest level is all floor, the highest all
+/// For each face of the plan, the probability that the surface on `level` is a floor, empty above. Faces that
+/// no wall separates share their evidence; the rest of the level is the prior. A face with much evidence of
+/// its own may differ. Needs wall_omega and level_omega. The lowest level is all floor, the highest all
 /// ceiling. No evidence: 1/2.
 std::vector<double> floor_probability(const CellComplex& complex, const FaceWeights& weights,
                                       std::size_t level, const std::vector<LevelSides>& sides);

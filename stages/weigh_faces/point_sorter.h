@@ -13,8 +13,8 @@
 
 namespace roomcut {
 
-/// Decides what each point speaks for: one wall line, one level, or the space beside them. Used by one thread
-/// at a time; the counters that it fills are shared.
+/// Assigns each point to one wall line, one level, or the space beside them. Used by one thread at a time;
+/// the counters that it fills are shared.
 class PointSorter {
  public:
   PointSorter(const CellComplex& complex, const Tolerances& tolerances, const LevelFinder& heights,

@@ -25,7 +25,7 @@ class WallRasters {
   /// on the side that the line's normal points to.
   void add_level_beside(std::int32_t line, bool plus, double t, std::size_t level);
 
-  /// Fills wall_omega and wall_points. Every line is worked on by one thread.
+  /// Fills wall_omega and wall_points. One thread per line.
   void weigh_coverage(FaceWeights& weights) const;
   /// Fills wall_left and wall_right from the coverage of walls and levels.
   void weigh_sides(FaceWeights& weights) const;

@@ -34,10 +34,10 @@ class FacesBeside {
 };
 
 /// Probability that the empty side of a wall face is its left one. A wall stands where a floor and a ceiling
-/// end: asked are the faces of the plan on both sides (slivers between nearly equal lines have no floor of
-/// their own), at the nearest levels below and above and, as far as these say nothing and the wall goes on,
-/// at the next ones; and the strips right beside it. Needs wall_omega, level_floor and level_ceiling. No
-/// evidence: 1/2.
+/// end. The evidence: the faces of the plan on both sides (slivers between nearly equal lines have no floor
+/// of their own) at the nearest levels below and above; as far as these are uncovered and the wall goes on,
+/// those at the next levels too; and the strips right beside the wall. Needs wall_omega, level_floor and
+/// level_ceiling. No evidence: 1/2.
 double left_probability(const CellComplex& complex, const FaceWeights& weights, std::size_t edge,
                         std::size_t layer, const StripShares& strips, const FacesBeside& left,
                         const FacesBeside& right);
