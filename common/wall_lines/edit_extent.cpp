@@ -35,12 +35,10 @@ bool fits(const Box& points, const PlanBox& allowed, double scale, ToLocal to_lo
 Cause other_coordinates(const EditPlan& plan) {
   if (plan.coordinates() == LineCoordinates::kScan) {
     return {"these look like local coordinates, as files of version 1.0 have them",
-            std::string("write \"") + kCoordinatesKey + "\": \"" + kLocalCoordinates + "\" in the member `" +
-                kMember + "`"};
+            R"(write "coordinates": "local" in the member `roomcut`)"};
   }
-  return {"these look like the scan's own coordinates", std::string("write \"") + kCoordinatesKey + "\": \"" +
-                                                            kScanCoordinates + "\" in the member `" +
-                                                            kMember + "`"};
+  return {"these look like the scan's own coordinates",
+          R"(write "coordinates": "scan" in the member `roomcut`)"};
 }
 
 Cause likely_cause(const Box& points, const PlanBox& allowed, const EditPlan& plan, const WallLines& base) {

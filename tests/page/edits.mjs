@@ -211,7 +211,8 @@ export async function editsLines(page, scan, work, name) {
     const added = [...after.values()].filter(({ properties }) => properties.source === "added");
     assert.equal(added.length, 1);
     const ends = added[0].geometry.coordinates.flat();
-    const wanted = [...drawn.a, ...drawn.b];
+    const [x, y] = json(join(work, "40_accept_lines", "wall_lines.geojson")).roomcut.frame.origin;
+    const wanted = [drawn.a[0] + x, drawn.a[1] + y, drawn.b[0] + x, drawn.b[1] + y]; // files hold the scan's own coordinates
     const same = (order) => order.every((k, i) => Math.abs(ends[i] - wanted[k]) < 2e-6);
     assert.ok(same([0, 1, 2, 3]) || same([2, 3, 0, 1]), `${ends} instead of ${wanted}`);
     for (const [id, feature] of before) {

@@ -32,7 +32,7 @@ export function showHistogram(run) {
       text: "Area of level surface per height. Orange marks: the peaks, heights of floors and ceilings. Blue: the structure slice around each. Yellow: the wall slices between.",
     }),
     picture(levels, histogram, run.facts.histogram_area),
-    levelTable(levels, run.facts.frame?.origin?.[2] ?? 0),
+    levelTable(levels, (z) => run.scan.toScan([0, 0, z])[2]),
   );
 }
 
@@ -62,12 +62,12 @@ function picture(levels, { z0, bin_m: bin }, bins) {
   return drawing;
 }
 
-function levelTable(levels, origin) {
+function levelTable(levels, heightOf) {
   const head = ["Level", "Height in the scan [m]", "Structure slice [m]", "Level surface [m²]", "Largest piece [m²]", "Wall slice above"];
   const rows = levels.map((level, i) => [
     String(i),
-    number(level.z + origin, 3),
-    `${number(level.lo + origin, 3)} … ${number(level.hi + origin, 3)}`,
+    number(heightOf(level.z), 3),
+    `${number(heightOf(level.lo), 3)} … ${number(heightOf(level.hi), 3)}`,
     level.cap ? "cap: none seen" : level.step ? "step of a slope" : number(level.area_m2, 1),
     number(level.component_m2, 1),
     i + 1 < levels.length ? `${number(levels[i + 1].z - level.z)} m` : "",
