@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/LU>
+#include <cmath>
 
 #include "common/artefact/provenance.h"
 #include "common/geometry/level_turn.h"
@@ -37,5 +38,15 @@ class ScanCoordinates {
   Eigen::Matrix3d turn_;
   Vec3 origin_;
 };
+
+/// A local coordinate read from a file that holds the scan's own to 1e-6 m, without what a far origin leaves
+/// of rounding: the same number wherever the building stands.
+inline double without_rounding(double metres) {
+  const double result = std::round(metres * 1e7) / 1e7;
+  return result == 0 ? 0 : result;
+}
+inline Vec2 without_rounding(const Vec2& p) {
+  return {without_rounding(p.x()), without_rounding(p.y())};
+}
 
 }  // namespace roomcut

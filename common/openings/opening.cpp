@@ -32,11 +32,11 @@ OpeningPlace place_in_scan(const Opening& opening, const Frame& frame) {
 
 void set_place(Opening& opening, const OpeningPlace& place, const Frame& frame) {
   const ScanCoordinates scan(frame);
-  opening.jamb_a = scan.plan_to_local(place.jamb_a);
-  opening.jamb_b = scan.plan_to_local(place.jamb_b);
+  opening.jamb_a = without_rounding(scan.plan_to_local(place.jamb_a));
+  opening.jamb_b = without_rounding(scan.plan_to_local(place.jamb_b));
   const Vec2 middle = 0.5 * (opening.jamb_a + opening.jamb_b);
-  opening.sill_z = scan.height_to_local(middle, place.sill_z);
-  opening.head_z = scan.height_to_local(middle, place.head_z);
+  opening.sill_z = without_rounding(scan.height_to_local(middle, place.sill_z));
+  opening.head_z = without_rounding(scan.height_to_local(middle, place.head_z));
 }
 
 Openings normalised_openings(Openings openings) {

@@ -154,7 +154,8 @@ Vec2 EditPlan::to_base(const Vec2& drawn) const {
   if (as_it_is_) {
     return drawn;
   }
-  return base_.plan_to_local(coordinates_ == LineCoordinates::kScan ? drawn : own_.plan_to_scan(drawn));
+  return without_rounding(
+      base_.plan_to_local(coordinates_ == LineCoordinates::kScan ? drawn : own_.plan_to_scan(drawn)));
 }
 
 EditOrigin read_edit_member(const Json& document, const Frame& base_frame, EditReport& report) {

@@ -38,7 +38,9 @@ class FilePlan {
       : scan_(frame), local_(coordinates == LineCoordinates::kLocal) {}
   /// As the file holds it: rounded to 1e-6 m.
   Vec2 to_file(const Vec2& local) const;
-  Vec2 to_local(const Vec2& file) const { return local_ ? file : scan_.plan_to_local(file); }
+  Vec2 to_local(const Vec2& file) const {
+    return local_ ? file : without_rounding(scan_.plan_to_local(file));
+  }
 
  private:
   ScanCoordinates scan_;

@@ -85,6 +85,9 @@ std::vector<Picture> draw_layers(const StageRun& run) {
     const auto png = encode_png(raster.image, PngPixels::kRgb);
     files.push_back({"slice", name + ".pgw", "", "", world_file(place)});
     files.push_back({"slice", name + ".png.aux.xml", "", "", aux_file(place, crs)});
+    if (crs == slices.frame.crs && crs.find('[') != std::string::npos) {
+      files.push_back({"slice", name + ".prj", "", "", crs + "\n"});
+    }
     files.push_back({"slice", name + ".png", "", "", {png.begin(), png.end()}});
   }
   return files;

@@ -142,7 +142,7 @@ TEST(WallLinesIo, TheStrictReaderRefusesWhatAStageWouldNotWrite) {
     }
     return "none";
   };
-  EXPECT_EQ(code_with("\"schema_version\": \"1.0\"", "\"schema_version\": \"2.0\""),
+  EXPECT_EQ(code_with("\"schema_version\": \"1.1\"", "\"schema_version\": \"2.0\""),
             errors::kArtefactVersion.id);
   EXPECT_EQ(code_with("\"artefact\": \"wall_lines\"", "\"artefact\": \"cells\""), errors::kArtefactType.id);
   EXPECT_EQ(code_with("\"wall_id\": \"w0002\"", "\"wall_id\": \"w0001\""), errors::kArtefactDamaged.id);
