@@ -26,6 +26,8 @@ class ScanCoordinates {
   /// How plan_to_scan() turns and stretches: the identity but for levelled scans.
   Eigen::Matrix2d plan_turn() const { return turn_.topLeftCorner<2, 2>().transpose(); }
 
+  /// A height as captions say it: at the origin of the plan.
+  double caption_height(double local) const { return height_to_scan({0, 0}, local); }
   /// A height at a place of the plan; `place` is local both times.
   double height_to_scan(const Vec2& place, double local) const {
     return to_scan(Vec3(place.x(), place.y(), local)).z();

@@ -35,6 +35,10 @@ export class ScanCoordinates {
     const determinant = a * d - b * c;
     return [(d * u - b * v) / determinant, (a * v - c * u) / determinant];
   }
+  /** A height of the scan as the page says it: at the origin of the plan. */
+  captionHeight(local) {
+    return this.toScan([0, 0, local])[2];
+  }
   /** A height at a place of the plan, given locally. */
   heightToLocal([x, y], scan) {
     return (scan - this.origin[2] - this.turn[0][2] * x - this.turn[1][2] * y) / this.turn[2][2];

@@ -24,8 +24,8 @@ export async function loadRun() {
   const [facts, lines, logs, model, cloud, cells] = await Promise.all(
     ["run", "lines", "logs", "model", "cloud", "cells"].map(loadBlock),
   );
-  const complex = cells ? new Complex(cells) : null;
   const scan = new ScanCoordinates(facts?.frame ?? facts?.summary?.frame ?? lines?.detected?.roomcut?.frame);
+  const complex = cells ? new Complex(cells, scan) : null;
   return {
     facts: facts ?? {},
     scan,
@@ -57,7 +57,7 @@ export function slicesOf(run) {
       index,
       low,
       high,
-      name: `${index}: ${low.toFixed(2)} … ${high.toFixed(2)} m`,
+      name: `${index}: ${[low, high].map((z) => run.scan.captionHeight(z).toFixed(2)).join(" … ")} m`,
       layer: run.complex ? run.complex.layerBetween(low, high) : -1,
     };
   });
