@@ -61,6 +61,22 @@ TEST(H5, returns_what_was_written) {
   EXPECT_FALSE(reader.exists("none/z"));
 }
 
+TEST(H5, keeps_the_coordinate_system_and_counts_it_as_content) {
+  const TemporaryFolder folder;
+  std::string payload[2];
+  for (const std::string crs : {"", "PROJCS[\"größer\"]"}) {
+    Frame frame;
+    frame.crs = crs;
+    H5Writer writer(folder / "cells.h5", kType, some_provenance(), frame);
+    writer.write<double>("levels/z", {0.0, 5.0}, "m", "heights");
+    writer.commit();
+    const H5Reader reader(folder / "cells.h5", kType);
+    EXPECT_EQ(reader.frame().crs, crs);
+    payload[crs.empty() ? 0 : 1] = inspect_artefact(folder / "cells.h5").payload_sha256;
+  }
+  EXPECT_NE(payload[0], payload[1]);
+}
+
 TEST(H5, keeps_frame_and_provenance) {
   const TemporaryFolder folder;
   write_sample(folder / "cells.h5");
