@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/artefact/artefact_check.h"
 #include "common/artefact/h5.h"
 #include "tests/unit/artefact/temporary_folder.h"
 
