@@ -27,6 +27,8 @@ class ExtractProgram : public testing::Test {
     work_ = fs::path(testing::TempDir()) / "roomcut extract ü";
     fs::remove_all(work_);
     fs::create_directories(work_ / "90_final");
+    frame_.origin[0] = 1000;
+    frame_.origin[2] = 50;
   }
   void TearDown() override { fs::remove_all(work_); }
 
@@ -67,7 +69,7 @@ class ExtractProgram : public testing::Test {
   }
 
   fs::path work_;
-  Frame frame_{{1000, 0, 50}};
+  Frame frame_;
 };
 
 bool in_the_middle(const Vec2& p, double z) {

@@ -34,7 +34,10 @@ TEST(DescribeChanges, NamesEveryChangedLineAndCountsAll) {
 
 TEST(DescribeChanges, SaysPlacesInTheScansOwnCoordinates) {
   const std::vector<WallLine> detected{make_line("w0001", {0, 0}, {4, 0})};
-  const auto text = describe_changes(compare_lines(detected, {}), detected, {}, {{691234.5, 5334567.25, 0}});
+  Frame frame;
+  frame.origin[0] = 691234.5;
+  frame.origin[1] = 5334567.25;
+  const auto text = describe_changes(compare_lines(detected, {}), detected, {}, frame);
   EXPECT_NE(text[0].find("from (691234.50, 5334567.25) to (691238.50, 5334567.25)"), std::string::npos)
       << text[0];
 }
