@@ -165,6 +165,9 @@ Json to_json(const Frame& frame) {
   if (frame.levelled()) {
     value["level"] = {frame.level[0], frame.level[1], frame.level[2]};
   }
+  if (!frame.crs.empty()) {
+    value["crs"] = frame.crs;
+  }
   return value;
 }
 
@@ -197,6 +200,7 @@ Frame frame_from_json(const Json& value) {
   if (!limits::is_up(frame.level)) {
     throw BadJson("level is no unit vector that points up");
   }
+  frame.crs = value.value("crs", std::string());
   return frame;
 }
 

@@ -121,6 +121,10 @@ def write_e57(path, scans):
             columns = dict(zip(("cartesianX", "cartesianY", "cartesianZ"), local.T))
         node = libe57.StructureNode(image)
         node.set("guid", libe57.StringNode(image, f"{{scan {number}}}"))
+        if "normals" in scan:
+            if number == 0:  # once in a file
+                image.extensionsAdd("nor", "http://www.libe57.org/E57_NOR_surface_normals.txt")
+            columns |= dict(zip(("nor:normalX", "nor:normalY", "nor:normalZ"), scan["normals"].T))
         pose = libe57.StructureNode(image)
         for member, names in (("rotation", "wxyz"), ("translation", "xyz")):
             if member in scan:
@@ -232,6 +236,43 @@ class Decoders(unittest.TestCase):
                     las = laspy.read(path)
                     wanted = numpy.stack((las.X * 0.0001 + 691000, las.Y * 0.0001 + 5334000, las.Z * 0.0001), axis=1)[~withheld]
                     numpy.testing.assert_array_equal(points, wanted)
+
+    def test_coordinate_system_and_set_ups_of_las_are_said_and_kept(self):
+        wkt = 'PROJCS["ETRS89 / UTM zone 32N",GEOGCS["ETRS89"],UNIT["metre",1],AUTHORITY["EPSG","25832"]]'
+        keys = struct.pack("<12H", 1, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, 25832)
+        for name, record, wanted in (("wkt", laspy.VLR("LASF_Projection", 2112, "", wkt.encode() + b"\0"), wkt),
+                                     ("keys", laspy.VLR("LASF_Projection", 34735, "", keys), "EPSG:25832"), ("none", None, None)):
+            with self.subTest(crs=name):
+                las = laspy.LasData(laspy.LasHeader(version="1.4", point_format=6))
+                las.header.scales = [0.001] * 3
+                if record:
+                    las.header.vlrs.append(record)
+                las.x, las.y, las.z = room().T
+                las.point_source_id = numpy.arange(20000) % 3 + 7 if name == "wkt" else numpy.full(20000, 7)
+                las.write(self.path("c.laz"))
+                done = ingest(self.path("c.laz"), self.path("w"))
+                self.assertEqual(done.returncode, 0, done.stderr)
+                said_there = done.stdout + done.stderr
+                self.assertEqual("3 set-ups by the points' source ids (7 ... 9)" in said_there, name == "wkt", said_there)
+                dump = subprocess.run(["h5dump", "-A", "-g", "/frame", self.path("w/10_ingest/cloud.h5")], capture_output=True, text=True,
+                                      check=True).stdout.replace('\\"', '"')
+                if wanted:
+                    self.assertIn(wanted, dump)
+                    self.assertIn("coordinate system: " + ("ETRS89 / UTM zone 32N" if name == "wkt" else wanted), said_there)
+                else:
+                    self.assertNotIn("crs", dump)
+
+    def test_normals_of_e57_turn_with_their_scan(self):
+        world = room(3000)
+        normals = numpy.tile((0.6, 0.0, 0.8), (3000, 1))
+        quarter = turn(math.pi / 2, (0, 0, 1))
+        write_e57(self.path("n.e57"), [{"points": world, "normals": normals, "rotation": quarter}, {"points": world}])
+        points, _, _, error = decode(self.path("n.e57"))
+        self.assertIsNone(error)
+        numpy.testing.assert_allclose(points[:3000], rotate(quarter, world), atol=1e-9)
+        numpy.testing.assert_allclose(said["normals"][:3000], rotate(quarter, normals), atol=1e-6)
+        self.assertFalse(said["normals"][3000:].any(), "no normal, no direction")
+        self.assertEqual(ingest(self.path("n.e57"), self.path("w")).returncode, 0)
 
     def test_las_with_fewer_or_more_points_than_promised_is_refused(self):
         write_las(self.path("a.las"), room(1000))
@@ -423,4 +464,4 @@ class SharedFiles(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)

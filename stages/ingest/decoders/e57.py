@@ -152,7 +152,7 @@ def decode(path, stream):
     root = image.root()
     nodes = child(root, "data3D")
     crs = child(root, "coordinateMetadata")
-    if crs and crs.value().strip():
+    if crs:
         stream.coordinate_system(crs.value())
     scans = [at_scan(index, lambda at=index: Scan(nodes[at])) for index in range(len(nodes) if nodes else 0)]
     for station in filter(lambda place: place is not None, (scan.station() for scan in scans)):

@@ -7,6 +7,7 @@ position (3 float64), N a note, C the coordinate system as text, B the head (uin
 float64 and the normal as float32. After them N, D dropped points (uint64: beams without return, points marked as invalid), E the end
 (uint64: points in all). X is an error ("C04\\nwhat\\nhint"). A stream without E is no scan."""
 import os
+import re
 import resource
 import struct
 import sys
@@ -15,6 +16,7 @@ import numpy
 
 MEMORY = 3 << 30  # address space of a decoder: what a damaged header asks for beyond is an error of the scan
 LONGEST_TEXT = 1 << 16
+LONGEST_CRS = 1 << 14  # real ones have a few thousand bytes; an attribute of HDF5 holds 64 KiB
 DOUBLES, SCALED, WITH_NORMALS = range(3)  # forms of points
 EXPORT_AGAIN = "export or copy the scan again"
 
@@ -42,7 +44,14 @@ class PointStream:
         self.record(b"N", text.encode()[:LONGEST_TEXT])
 
     def coordinate_system(self, text):
-        self.record(b"C", text.encode()[:LONGEST_TEXT])
+        """Well-known text or a name; what no coordinate system is so long as is left out."""
+        text = "".join(letter for letter in text.strip() if letter.isprintable() or letter in "\n\t").encode("utf-8", "replace")
+        if len(text) > LONGEST_CRS:
+            self.note(f"the text of its coordinate system has {len(text)} bytes; it was left out")
+        elif text:
+            self.record(b"C", text)
+            name = re.match(rb'\w+\s*\[\s*"([^"]{1,100})"', text)
+            self.note("coordinate system: " + b" ".join((name.group(1) if name else text[:100]).split()).decode("utf-8", "replace"))
 
     def begin(self, most_points, form=DOUBLES, scales=(1, 1, 1), offsets=(0, 0, 0)):
         self.form = form
