@@ -27,6 +27,7 @@ Frame some_frame() {
   frame.origin[2] = -1.25;
   frame.unit = "mm";
   frame.up = "-y";
+  frame.crs = "LOCAL_CS[\"Bauwerk\"]";
   return frame;
 }
 
@@ -85,6 +86,7 @@ TEST(H5, keeps_frame_and_provenance) {
   EXPECT_EQ(reader.frame().origin[2], -1.25);
   EXPECT_EQ(reader.frame().unit, "mm");
   EXPECT_EQ(reader.frame().up, "-y");
+  EXPECT_EQ(reader.frame().crs, some_frame().crs);
   EXPECT_EQ(reader.provenance().stage, "partition");
   EXPECT_EQ(reader.provenance().stage_revision, 3);
   EXPECT_EQ(reader.provenance().params_json, R"({"a":1})");
