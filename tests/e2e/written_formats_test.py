@@ -35,6 +35,12 @@ FORMS = {"s.ptx": (), "s.e57": (), "spherical.e57": ("--e57", "spherical"), "s.l
 RESOLUTION = {".ptx": 2e-6, ".e57": 1e-5, ".las": 0.51e-4, ".laz": 0.51e-4}  # of a coordinate [m]
 
 
+WKT = ('PROJCS["ETRS89 / UTM zone 32N",GEOGCS["ETRS89",DATUM["European_Terrestrial_Reference_System_1989",SPHEROID["GRS 1980",6378137,298.257222101]],'
+       'PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]],PROJECTION["Transverse_Mercator"],PARAMETER["latitude_of_origin",0],'
+       'PARAMETER["central_meridian",9],PARAMETER["scale_factor",0.9996],PARAMETER["false_easting",500000],PARAMETER["false_northing",0],'
+       'UNIT["metre",1],AUTHORITY["EPSG","25832"]]')
+
+
 def read_ply(path):
     with open(path, "rb") as file:
         content = file.read()
@@ -127,6 +133,26 @@ class WrittenFormats(unittest.TestCase):
         summary, truth = pipeline.summary(work), self.truth()
         self.assertEqual(sum(storey["rooms"] for storey in summary["storeys"]), len(truth["rooms"]))
         self.assertAlmostEqual(summary["totals"]["volume_m3"], truth["volume"], delta=0.01 * truth["volume"])
+
+    def test_the_coordinate_system_of_a_scan_goes_with_every_output(self):
+        self.synthesize("s.ply")
+        las = laspy.LasData(laspy.LasHeader(version="1.4", point_format=6))
+        las.header.scales, las.header.offsets = [0.0001] * 3, (691000, 5334000, 0)
+        las.header.global_encoding.wkt = True
+        las.header.vlrs.append(laspy.VLR("LASF_Projection", 2112, "", WKT.encode() + b"\0"))
+        las.x, las.y, las.z = (read_ply(self.path("s.ply")) + (691234.5, 5334567.25, 512)).T
+        las.write(self.path("site.laz"))
+        work = self.path("site")
+        pipeline.make("extract", self.path("site.laz"), work)
+        pipeline.make("layers", self.path("site.laz"), work)
+        for name in ("30_detect_lines/wall_lines", "80_refine_lines/wall_lines", "95_find_openings/openings"):
+            with open(os.path.join(work, name + ".geojson"), encoding="utf-8") as text:
+                self.assertEqual(json.load(text)["crs"]["properties"]["name"], WKT, name)
+        self.assertEqual(pipeline.summary(work)["frame"]["crs"], WKT)
+        for name, form in {"edits/slice_0.prj": WKT, "edits/slice_0.png.aux.xml": f"<SRS>{WKT}</SRS>".replace('"', "&quot;"),
+                           "model.ply": "coordinate system: " + WKT, "model.obj": "coordinate system: " + WKT}.items():
+            with open(os.path.join(work, name), "rb") as file:
+                self.assertIn(form.encode(), file.read(), name)
 
     def test_the_same_scene_is_the_same_file_with_any_number_of_threads(self):
         for name, options in FORMS.items():
