@@ -26,6 +26,9 @@ Frame frame_of(const h5::Content& content) {
     const auto& level = content.attribute<std::array<double, 3>>("/frame", "level");
     std::copy(level.begin(), level.end(), std::begin(frame.level));
   }
+  if (content.objects().at("/frame").attributes.contains("crs")) {  // of scans that name theirs
+    frame.crs = content.attribute<std::string>("/frame", "crs");
+  }
   require_sane(content.path(), frame);
   return frame;
 }

@@ -112,6 +112,9 @@ H5Writer::H5Writer(const std::filesystem::path& path, ArtefactType type, const P
     state_->require(h5::write_vector_attribute(group.get(), "level", level), "/frame@level");
     state_->digest.attribute("/frame", "level", level);
   }
+  if (!frame.crs.empty()) {
+    attribute("/frame", "crs", frame.crs);
+  }
 }
 
 H5Writer::~H5Writer() = default;

@@ -119,6 +119,10 @@ double local_metres(const Json& value) {
   return number_in(value, -limits::kFarthest_m, limits::kFarthest_m);
 }
 
+double scan_metres(const Json& value) {
+  return number_in(value, -limits::kFarthestOrigin_m, limits::kFarthestOrigin_m);
+}
+
 double number_at(const Json& owner, const char* key, double low, double high) {
   const Json& value = owner.at(key);
   try {
@@ -165,6 +169,9 @@ Json to_json(const Frame& frame) {
   if (frame.levelled()) {
     value["level"] = {frame.level[0], frame.level[1], frame.level[2]};
   }
+  if (!frame.crs.empty()) {
+    value["crs"] = frame.crs;
+  }
   return value;
 }
 
@@ -186,8 +193,7 @@ Provenance provenance_from_json(const Json& value) {
 Frame frame_from_json(const Json& value) {
   Frame frame;
   for (std::size_t i = 0; i < 3; ++i) {
-    frame.origin[i] =
-        number_in(value.at("origin").at(i), -limits::kFarthestOrigin_m, limits::kFarthestOrigin_m);
+    frame.origin[i] = scan_metres(value.at("origin").at(i));
   }
   frame.unit = value.at("unit").get<std::string>();
   frame.up = value.at("up").get<std::string>();
@@ -197,6 +203,7 @@ Frame frame_from_json(const Json& value) {
   if (!limits::is_up(frame.level)) {
     throw BadJson("level is no unit vector that points up");
   }
+  frame.crs = value.value("crs", std::string());
   return frame;
 }
 

@@ -46,6 +46,8 @@ double number_in(const Json& value, double low, double high);
 std::int64_t whole_number_in(const Json& value, std::int64_t low, std::int64_t high);
 /// A coordinate, height or length [m]: number_in() the limits of limits.h.
 double local_metres(const Json& value);
+/// The same of a coordinate in the scan's own, which may lie as far as a frame's origin.
+double scan_metres(const Json& value);
 /// The same for the member `key` of an object; the message names it. Throw nlohmann::json::exception when
 /// there is none.
 double number_at(const Json& owner, const char* key, double low, double high);

@@ -34,6 +34,9 @@ struct Frame {
   /// The unit vector, in the scan's axes after `up`, that is z here: other than 0 0 1 where a leaning scan
   /// was levelled. It was turned about the origin (common/geometry/level_turn.h); exports turn it back.
   double level[3] = {0, 0, 1};
+  /// The scan's coordinate system as its file states it: well-known text, or "EPSG:25832"; "" when it says
+  /// none.
+  std::string crs;
   bool levelled() const { return level[0] != 0 || level[1] != 0; }
 };
 

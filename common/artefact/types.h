@@ -15,12 +15,12 @@ namespace artefacts {
 inline constexpr ArtefactType kCloud{"cloud", 1, 1};
 inline constexpr ArtefactType kSlices{"slices", 1, 1};
 inline constexpr ArtefactType kHough{"hough", 1, 0};
-inline constexpr ArtefactType kWallLines{"wall_lines", 1, 0};
+inline constexpr ArtefactType kWallLines{"wall_lines", 1, 1};
 inline constexpr ArtefactType kCells{"cells", 1, 0};
 inline constexpr ArtefactType kWeights{"weights", 1, 1};
 inline constexpr ArtefactType kDataTerms{"data_terms", 1, 1};
 inline constexpr ArtefactType kLabels{"labels", 1, 0};
-inline constexpr ArtefactType kSummary{"summary", 1, 0};
+inline constexpr ArtefactType kSummary{"summary", 1, 1};
 inline constexpr ArtefactType kScores{"scores", 1, 0};
 inline constexpr ArtefactType kTruthCells{"truth_cells", 1, 0};
 inline constexpr ArtefactType kScene{"scene", 1, 0};

@@ -27,7 +27,7 @@ inline constexpr ErrorCode kScanBadLine{"C08", ExitCode::kInput};    ///< a text
 inline constexpr ErrorCode kScanExtent{"C09", ExitCode::kInput};     ///< degenerate or absurd extent (unit?)
 inline constexpr ErrorCode kScanTooCoarse{"C10", ExitCode::kInput};  ///< coordinates too coarse for a model
 inline constexpr ErrorCode kScanColumns{"C11", ExitCode::kInput};    ///< which columns of a text are x, y, z?
-inline constexpr ErrorCode kScanNoDecoder{"C12", ExitCode::kInput};  ///< E57, LAS: no environment to read it
+inline constexpr ErrorCode kScanNoDecoder{"C12", ExitCode::kInput};  ///< E57, LAS: no environment for it
 inline constexpr ErrorCode kScanLeans{"C13", ExitCode::kInput};      ///< out of level by more than 5 degrees
 
 // A: artefacts

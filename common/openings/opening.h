@@ -38,7 +38,17 @@ struct Openings {
   std::vector<Opening> openings;     ///< sorted by id
 };
 
-/// Rounded as the file holds them (6 decimals), jamb_a the one with the lesser x, then y.
+/// Where an opening lies as the file holds it: in the scan's own coordinates, rounded to 6 decimals, heights
+/// in the middle of the opening.
+struct OpeningPlace {
+  Vec2 jamb_a, jamb_b;
+  double sill_z = 0, head_z = 0;
+};
+OpeningPlace place_in_scan(const Opening& opening, const Frame& frame);
+/// The other way: fills the places of `opening`.
+void set_place(Opening& opening, const OpeningPlace& place, const Frame& frame);
+
+/// Rounded as the file holds them, jamb_a the one with the lesser x there, then y. Coordinates stay local.
 Openings normalised_openings(Openings openings);
 
 }  // namespace roomcut

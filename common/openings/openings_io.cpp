@@ -10,9 +10,10 @@
 
 #include "common/artefact/artefact_check.h"
 #include "common/artefact/atomic_file.h"
+#include "common/artefact/frame_crs.h"
 #include "common/artefact/json.h"
 #include "common/artefact/known_artefacts.h"
-#include "common/artefact/local_crs.h"
+#include "common/artefact/limits.h"
 #include "common/artefact/sha256.h"
 #include "common/errors/codes.h"
 
@@ -40,22 +41,22 @@ std::string proof_text(const OpeningProof& proof) {
          R"(, "sigma_m": )" + fixed(proof.sigma_m) + "}";
 }
 
-std::string feature_text(const Opening& opening) {
+std::string feature_text(const Opening& opening, const Frame& frame) {
+  const OpeningPlace place = place_in_scan(opening, frame);
   const std::string id = Json(opening.id).dump();
   return R"({"type": "Feature", "id": )" + id + R"(, "properties": {"opening_id": )" + id + R"(, "walls": )" +
          Json({opening.wall_a, opening.wall_b}).dump() + R"(, "thickness_m": )" + fixed(opening.thickness_m) +
-         R"(, "width_m": )" + fixed(opening.width()) + R"(, "sill_z_m": )" + fixed(opening.sill_z) +
-         R"(, "head_z_m": )" + fixed(opening.head_z) + R"(, "jamb_a": )" + proof_text(opening.proof_a) +
+         R"(, "width_m": )" + fixed(opening.width()) + R"(, "sill_z_m": )" + fixed(place.sill_z) +
+         R"(, "head_z_m": )" + fixed(place.head_z) + R"(, "jamb_a": )" + proof_text(opening.proof_a) +
          R"(, "jamb_b": )" + proof_text(opening.proof_b) + R"(, "head": )" + proof_text(opening.proof_head) +
-         R"(}, "geometry": {"type": "LineString", "coordinates": [[)" + fixed(opening.jamb_a.x()) + ", " +
-         fixed(opening.jamb_a.y()) + "], [" + fixed(opening.jamb_b.x()) + ", " + fixed(opening.jamb_b.y()) +
-         "]]}}";
+         R"(}, "geometry": {"type": "LineString", "coordinates": [[)" + fixed(place.jamb_a.x()) + ", " +
+         fixed(place.jamb_a.y()) + "], [" + fixed(place.jamb_b.x()) + ", " + fixed(place.jamb_b.y()) + "]]}}";
 }
 
 std::string features_text(const Openings& openings) {
   std::string text;
   for (const Opening& opening : openings.openings) {
-    text += (text.empty() ? "" : ",\n") + feature_text(opening);
+    text += (text.empty() ? "" : ",\n") + feature_text(opening, openings.frame);
   }
   return text;
 }
@@ -68,7 +69,17 @@ OpeningProof proof_from(const Json& value) {
           number_at(value, "spread", 0, kMostSpread), metres_at(value, "sigma_m")};
 }
 
-Opening opening_from(const Json& feature) {
+/// Of a damaged file places may lie anywhere.
+void require_near(const Opening& opening) {
+  for (const double value : {opening.jamb_a.x(), opening.jamb_a.y(), opening.jamb_b.x(), opening.jamb_b.y(),
+                             opening.sill_z, opening.head_z}) {
+    if (!limits::is_local(value)) {
+      throw BadJson("the opening lies impossibly far from the frame's origin");
+    }
+  }
+}
+
+Opening opening_from(const Json& feature, const Frame& frame) {
   const Json& geometry = feature.at("geometry");
   const Json& properties = feature.at("properties");
   if (geometry.at("type") != "LineString" || geometry.at("coordinates").size() != 2) {
@@ -76,17 +87,18 @@ Opening opening_from(const Json& feature) {
   }
   const auto point = [&](std::size_t i) {
     const Json& p = geometry.at("coordinates").at(i);
-    return Vec2(local_metres(p.at(0)), local_metres(p.at(1)));
+    return Vec2(scan_metres(p.at(0)), scan_metres(p.at(1)));
   };
   Opening opening;
   opening.id = properties.at("opening_id").get<std::string>();
   opening.wall_a = properties.at("walls").at(0).get<std::string>();
   opening.wall_b = properties.at("walls").at(1).get<std::string>();
-  opening.jamb_a = point(0);
-  opening.jamb_b = point(1);
   opening.thickness_m = metres_at(properties, "thickness_m");
-  opening.sill_z = metres_at(properties, "sill_z_m");
-  opening.head_z = metres_at(properties, "head_z_m");
+  set_place(
+      opening,
+      {point(0), point(1), scan_metres(properties.at("sill_z_m")), scan_metres(properties.at("head_z_m"))},
+      frame);
+  require_near(opening);
   opening.proof_a = proof_from(properties.at("jamb_a"));
   opening.proof_b = proof_from(properties.at("jamb_b"));
   opening.proof_head = proof_from(properties.at("head"));
@@ -96,11 +108,11 @@ Opening opening_from(const Json& feature) {
   return opening;
 }
 
-std::vector<Opening> openings_from(const Json& features) {
+std::vector<Opening> openings_from(const Json& features, const Frame& frame) {
   std::vector<Opening> openings;
   for (std::size_t i = 0; i < features.size(); ++i) {
     try {
-      openings.push_back(opening_from(features.at(i)));
+      openings.push_back(opening_from(features.at(i), frame));
     } catch (const Json::exception& error) {
       throw BadJson("features[" + std::to_string(i) + "]: " + short_message(error));
     } catch (const BadJson& error) {
@@ -128,7 +140,7 @@ OpeningsFile read_openings(const std::filesystem::path& path) {
     check_type_and_version(path, member.at("artefact").get<std::string>(), version, artefacts::kOpenings);
     file.content.frame = frame_from_json(member.at("frame"));
     file.content.cells_payload_sha256 = member.at("cells_payload_sha256").get<std::string>();
-    file.content.openings = openings_from(document.at("features"));
+    file.content.openings = openings_from(document.at("features"), file.content.frame);
     stated = member.at("provenance").at("payload_sha256").get<std::string>();
   } catch (const Json::exception& error) {
     throw_damaged(path, "", "not an openings artefact: " + short_message(error));
@@ -155,10 +167,11 @@ std::string openings_text(const Openings& openings, const Provenance& provenance
   Json made = to_json(provenance);
   made["payload_sha256"] = payload_of(normalised);
   return std::string("{\n\"type\": \"FeatureCollection\",\n\"name\": \"openings\",\n") +
-         "\"crs\": {\"type\": \"name\", \"properties\": {\"name\": " + Json(kLocalCrs).dump() + "}},\n\"" +
-         kMember + "\": {\n\"artefact\": \"openings\",\n\"schema_version\": " +
+         "\"crs\": {\"type\": \"name\", \"properties\": {\"name\": " + Json(crs_of(normalised.frame)).dump() +
+         "}},\n\"" + kMember + "\": {\n\"artefact\": \"openings\",\n\"schema_version\": " +
          Json(version_text(artefacts::kOpenings)).dump() +
-         ",\n\"length_unit\": \"m\",\n\"frame\": " + canonical_json(to_json(normalised.frame)) +
+         ",\n\"length_unit\": \"m\",\n\"coordinates\": \"scan\",\n\"frame\": " +
+         canonical_json(to_json(normalised.frame)) +
          ",\n\"cells_payload_sha256\": " + Json(normalised.cells_payload_sha256).dump() +
          ",\n\"provenance\": " + canonical_json(made) + "\n},\n\"features\": [\n" +
          features_text(normalised) + "\n]\n}\n";

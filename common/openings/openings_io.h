@@ -11,7 +11,7 @@
 namespace roomcut {
 
 namespace artefacts {
-inline constexpr ArtefactType kOpenings{"openings", 1, 0};
+inline constexpr ArtefactType kOpenings{"openings", 2, 0};
 }  // namespace artefacts
 
 struct OpeningsFile {

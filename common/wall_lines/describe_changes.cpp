@@ -20,17 +20,18 @@ std::string point(const Vec2& p) {
   return "(" + number(p.x(), 2) + ", " + number(p.y(), 2) + ")";
 }
 
-std::string describe_id(const std::vector<WallLine>& lines, const std::string& id) {
+std::string describe_id(const std::vector<WallLine>& lines, const std::string& id,
+                        const ScanCoordinates& scan) {
   const auto found =
       std::find_if(lines.begin(), lines.end(), [&](const WallLine& line) { return line.id == id; });
-  return found == lines.end() ? id : describe(*found);
+  return found == lines.end() ? id : describe(*found, scan);
 }
 
 }  // namespace
 
-std::string describe(const WallLine& line) {
-  return line.id + " (" + number(line.length(), 2) + " m, from " + point(line.a) + " to " + point(line.b) +
-         ")";
+std::string describe(const WallLine& line, const ScanCoordinates& scan) {
+  return line.id + " (" + number(line.length(), 2) + " m, from " + point(scan.plan_to_scan(line.a)) + " to " +
+         point(scan.plan_to_scan(line.b)) + ")";
 }
 
 std::string describe(const LineMove& move) {
@@ -45,21 +46,22 @@ std::string describe(const LineMove& move) {
 
 std::vector<std::string> describe_changes(const LineDifferences& changes,
                                           const std::vector<WallLine>& detected,
-                                          const std::vector<WallLine>& edited) {
+                                          const std::vector<WallLine>& edited, const Frame& frame) {
+  const ScanCoordinates scan(frame);
   std::vector<std::string> text;
   for (const LineMove& move : changes.moved) {
     text.push_back("moved:   " + describe(move));
   }
   for (const std::string& id : changes.added) {
-    text.push_back("added:   " + describe_id(edited, id));
+    text.push_back("added:   " + describe_id(edited, id, scan));
   }
   for (const std::string& id : changes.deleted) {
-    text.push_back("deleted: " + describe_id(detected, id));
+    text.push_back("deleted: " + describe_id(detected, id, scan));
   }
   std::size_t locked = 0;
   for (const WallLine& line : edited) {
     if (line.locked) {
-      text.push_back("locked:  " + describe(line));
+      text.push_back("locked:  " + describe(line, scan));
       ++locked;
     }
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/wall_lines/edit_document.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -83,15 +84,15 @@ void check_version(const Json& member, EditReport& report) {
   }
 }
 
-/// The distance that the origin moved since the edit began, in plan.
-Vec2 check_frame(const Json& member, const Frame& base, EditReport& report) {
+/// The file's own frame; the base's where it has none that can be used.
+Frame check_frame(const Json& member, const Frame& base, EditReport& report) {
   if (member.contains("length_unit") && member["length_unit"] != "m") {
     std::string what = "length_unit is ";
     what.append(excerpt(member["length_unit"])).append(", lines are in \"m\"");
     report.problem(errors::kLinesUnit, kMember, what, "scale the coordinates to metres and write \"m\"");
   }
   if (!member.contains("frame")) {
-    return {0, 0};
+    return base;
   }
   Frame frame;
   try {
@@ -99,22 +100,34 @@ Vec2 check_frame(const Json& member, const Frame& base, EditReport& report) {
   } catch (const std::exception&) {
     report.problem(errors::kLinesUnit, kMember, "frame is not complete, or not one",
                    "copy the member `frame` from the detected lines");
-    return {0, 0};
+    return base;
   }
   if (frame.unit != base.unit || frame.up != base.up) {
     report.problem(errors::kLinesUnit, kMember,
                    "was drawn on a scan read with --unit " + frame.unit + " --up " + frame.up +
                        ", this one was read with --unit " + base.unit + " --up " + base.up,
                    "ingest the scan as before, or draw the edit anew (`make drop-edit`, `make edit-lines`)");
-    return {0, 0};
+    return base;
   }
-  const Vec2 shift(frame.origin[0] - base.origin[0], frame.origin[1] - base.origin[1]);
-  if (shift.norm() <= kSameOrigin_m) {
-    return {0, 0};
+  return frame;
+}
+
+Vec2 moved_by(const Frame& frame, const Frame& base) {
+  return {frame.origin[0] - base.origin[0], frame.origin[1] - base.origin[1]};
+}
+
+/// Files of version 1.0 do not say it: theirs are local.
+LineCoordinates check_coordinates(const Json& member, EditReport& report) {
+  if (!member.contains(kCoordinatesKey) || member[kCoordinatesKey] == kLocalCoordinates) {
+    return LineCoordinates::kLocal;
   }
-  report.warn(kMember, "the scan's origin moved by " + std::to_string(shift.norm()) +
-                           " m since the edit began; its lines were moved along");
-  return shift;
+  if (member[kCoordinatesKey] != kScanCoordinates) {
+    report.problem(errors::kLinesUnit, kMember,
+                   std::string(kCoordinatesKey) + " is " + excerpt(member[kCoordinatesKey]) +
+                       ", must be \"scan\" or \"local\"",
+                   "write \"scan\" when the lines lie on the scan");
+  }
+  return LineCoordinates::kScan;
 }
 
 }  // namespace
@@ -130,8 +143,24 @@ Json read_edit_document(const std::filesystem::path& path, EditReport& report) {
   return document;
 }
 
+EditPlan::EditPlan(LineCoordinates coordinates, const Frame& own, const Frame& base)
+    : coordinates_(coordinates),
+      own_(own),
+      base_(base),
+      as_it_is_(coordinates == LineCoordinates::kLocal && moved_by(own, base).norm() <= kSameOrigin_m &&
+                std::equal(std::begin(own.level), std::end(own.level), std::begin(base.level))) {}
+
+Vec2 EditPlan::to_base(const Vec2& drawn) const {
+  if (as_it_is_) {
+    return drawn;
+  }
+  return without_rounding(
+      base_.plan_to_local(coordinates_ == LineCoordinates::kScan ? drawn : own_.plan_to_scan(drawn)));
+}
+
 EditOrigin read_edit_member(const Json& document, const Frame& base_frame, EditReport& report) {
   EditOrigin origin;
+  origin.frame = base_frame;
   if (!document.contains(kMember)) {
     std::string what = "the member `";
     what.append(kMember).append("` is missing; unit, frame and base are taken from the detected lines");
@@ -146,7 +175,13 @@ EditOrigin read_edit_member(const Json& document, const Frame& base_frame, EditR
   }
   check_version(member, report);
   origin.base_sha256 = text_member(member, "base_sha256");
-  origin.shift = check_frame(member, base_frame, report);
+  origin.coordinates = check_coordinates(member, report);
+  origin.frame = check_frame(member, base_frame, report);
+  const double moved = moved_by(origin.frame, base_frame).norm();
+  if (origin.coordinates == LineCoordinates::kLocal && moved > kSameOrigin_m) {
+    report.warn(kMember, "the scan's origin moved by " + std::to_string(moved) +
+                             " m since the edit began; its lines were moved along");
+  }
   return origin;
 }
 

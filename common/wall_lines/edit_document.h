@@ -2,12 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/artefact/json.h"
 #include "common/errors/error.h"
 #include "common/wall_lines/wall_line.h"
+#include "common/wall_lines/wall_lines_format.h"
 
 // The parts of read_edited_wall_lines(). Each adds what is wrong to `EditReport::problems` and goes on, so
 // that a person sees all problems of the file at once.
@@ -34,10 +36,25 @@ Json read_edit_document(const std::filesystem::path& path, EditReport& report);
 /// What the member `roomcut` says, compared with the base.
 struct EditOrigin {
   std::string base_sha256;  ///< detection that the edit began from; "" when the file doesn't say
-  Vec2 shift{0, 0};         ///< to be added to the coordinates: the frame's origin moved since [m]
+  std::optional<LineCoordinates> coordinates;  ///< of the lines; none: the file has no member that says so
+  Frame frame;  ///< where the file's local coordinates lie: its own, else the base's
 };
 
-/// Reports kLinesNoMember, kLinesVersion, kLinesUnit; warns when the member is missing or the origin moved.
+/// From the coordinates of an edit to local ones of the base.
+class EditPlan {
+ public:
+  EditPlan(LineCoordinates coordinates, const Frame& own, const Frame& base);
+  Vec2 to_base(const Vec2& drawn) const;
+  LineCoordinates coordinates() const { return coordinates_; }
+
+ private:
+  LineCoordinates coordinates_;
+  ScanCoordinates own_, base_;
+  bool as_it_is_;  ///< local coordinates of the base's frame
+};
+
+/// Reports kLinesNoMember, kLinesVersion, kLinesUnit; warns when the member is missing, or the origin of
+/// local coordinates moved.
 EditOrigin read_edit_member(const Json& document, const Frame& base_frame, EditReport& report);
 
 /// A line as drawn, with the feature that it came from.
@@ -47,8 +64,15 @@ struct DrawnLine {
   WallLine line;  ///< id empty when the feature has none; measured properties are not read
 };
 
-/// The features as lines. Reports kLinesGeometry, kLinesCoordinates, kLinesProperty.
-std::vector<DrawnLine> read_edit_features(const Json& features, const Vec2& shift, EditReport& report);
+/// The features as lines, in the coordinates of the file. Reports kLinesGeometry, kLinesCoordinates,
+/// kLinesProperty.
+std::vector<DrawnLine> read_edit_features(const Json& features, EditReport& report);
+
+/// The coordinates of lines in a file that does not say: those in which more of them lie on lines of the
+/// base, else those in which more lie in the scan, else local ones, as in files of before. Warns which it
+/// took, where it matters.
+LineCoordinates judge_coordinates(const std::vector<DrawnLine>& drawn, const WallLines& base,
+                                  EditReport& report);
 
 /// "features[17]" or "features[17] (wall_id w0017)".
 std::string feature_place(std::size_t index, const std::string& id);
@@ -56,8 +80,17 @@ std::string feature_place(std::size_t index, const std::string& id);
 /// Below it a line has no direction worth the name [m].
 inline constexpr double kShortestLine_m = 1e-3;
 
-/// Reports kLinesOutside for lines far outside the base's box, naming the likely cause, and kLinesDegenerate.
-void check_edit_extent(const std::vector<DrawnLine>& drawn, const WallLines& base, EditReport& report);
+/// Where a line of an edit may lie: the base's box, enlarged by half its diagonal. Local metres.
+struct PlanBox {
+  Vec2 low, high;
+  bool holds(const Vec2& p) const;  ///< NaN is nowhere
+};
+PlanBox allowed_box(const WallLines& base);
+
+/// Reports kLinesOutside for lines (in the coordinates of the file) far outside the base's box, naming the
+/// likely cause, and kLinesDegenerate.
+void check_edit_extent(const std::vector<DrawnLine>& drawn, const EditPlan& plan, const WallLines& base,
+                       EditReport& report);
 
 /// Gives ids, decides what is detected, edited or added, and takes from the base what editors drop. Result
 /// sorted by id.

@@ -19,9 +19,6 @@ struct Box {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  bool holds(const Vec2& p) const {
-    return p.x() >= low.x() && p.y() >= low.y() && p.x() <= high.x() && p.y() <= high.y();
-  }
   double diagonal() const { return (high - low).norm(); }
 };
 
@@ -29,28 +26,40 @@ struct Cause {
   std::string what, hint;
 };
 
-/// Whether all points of `points` lie in `box` after p -> scale * p - origin.
-bool fits(const Box& points, const Box& box, double scale, const Vec2& origin) {
-  return box.holds(scale * points.low - origin) && box.holds(scale * points.high - origin);
+/// Whether all points of `points` lie in `allowed` after p -> to_local(scale * p).
+template <class ToLocal>
+bool fits(const Box& points, const PlanBox& allowed, double scale, ToLocal to_local) {
+  return allowed.holds(to_local(scale * points.low)) && allowed.holds(to_local(scale * points.high));
 }
 
-Cause likely_cause(const Box& points, const Box& allowed, const Frame& frame) {
-  const Vec2 origin(frame.origin[0], frame.origin[1]);
+Cause other_coordinates(const EditPlan& plan) {
+  if (plan.coordinates() == LineCoordinates::kScan) {
+    return {"these look like local coordinates, as files of version 1.0 have them",
+            R"(write "coordinates": "local" in the member `roomcut`)"};
+  }
+  return {"these look like the scan's own coordinates",
+          R"(write "coordinates": "scan" in the member `roomcut`)"};
+}
+
+Cause likely_cause(const Box& points, const PlanBox& allowed, const EditPlan& plan, const WallLines& base) {
+  const auto to_base = [&](const Vec2& p) { return plan.to_base(p); };
+  const EditPlan other(
+      plan.coordinates() == LineCoordinates::kScan ? LineCoordinates::kLocal : LineCoordinates::kScan,
+      base.frame, base.frame);
+  if (fits(points, allowed, 1, [&](const Vec2& p) { return other.to_base(p); })) {
+    return other_coordinates(plan);
+  }
   if (points.low.x() >= -180 && points.high.x() <= 180 && points.low.y() >= -90 && points.high.y() <= 90) {
     return {"these look like degrees",
-            "save the layer in its own local metres, without reprojecting to WGS 84"};
+            "save the layer in the coordinate system of the scan, without reprojecting to WGS 84"};
   }
-  if (fits(points, allowed, 1e-3, {0, 0})) {
+  if (fits(points, allowed, 1e-3, to_base)) {
     return {"these look like millimetres", "scale the coordinates to metres"};
   }
-  if (fits(points, allowed, 1e-2, {0, 0})) {
+  if (fits(points, allowed, 1e-2, to_base)) {
     return {"these look like centimetres", "scale the coordinates to metres"};
   }
-  if (fits(points, allowed, 1, origin)) {
-    return {"these look like the scan's own coordinates",
-            "subtract the origin (" + std::to_string(origin.x()) + ", " + std::to_string(origin.y()) + ")"};
-  }
-  return {"neither degrees, millimetres nor the scan's own coordinates would fit",
+  return {"neither degrees, millimetres nor the scan's own or local coordinates would fit",
           "move the line into the scan, or delete the feature"};
 }
 
@@ -65,11 +74,20 @@ void check_lengths(const std::vector<DrawnLine>& drawn, EditReport& report) {
 
 }  // namespace
 
-void check_edit_extent(const std::vector<DrawnLine>& drawn, const WallLines& base, EditReport& report) {
+bool PlanBox::holds(const Vec2& p) const {
+  return p.x() >= low.x() && p.y() >= low.y() && p.x() <= high.x() && p.y() <= high.y();
+}
+
+PlanBox allowed_box(const WallLines& base) {
   const double margin = 0.5 * (base.bbox_max - base.bbox_min).norm();
-  const Box allowed{base.bbox_min - Vec2(margin, margin), base.bbox_max + Vec2(margin, margin)};
+  return {base.bbox_min - Vec2(margin, margin), base.bbox_max + Vec2(margin, margin)};
+}
+
+void check_edit_extent(const std::vector<DrawnLine>& drawn, const EditPlan& plan, const WallLines& base,
+                       EditReport& report) {
+  const PlanBox allowed = allowed_box(base);
   const auto outside = [&](const DrawnLine& d) {
-    return !allowed.holds(d.line.a) || !allowed.holds(d.line.b);
+    return !allowed.holds(plan.to_base(d.line.a)) || !allowed.holds(plan.to_base(d.line.b));
   };
   Box all;
   for (const DrawnLine& d : drawn) {
@@ -77,14 +95,15 @@ void check_edit_extent(const std::vector<DrawnLine>& drawn, const WallLines& bas
     all.add(d.line.b);
   }
   const auto count = static_cast<std::size_t>(std::count_if(drawn.begin(), drawn.end(), outside));
-  const bool shrunk = drawn.size() > 1 && all.diagonal() < kShrunk * 2 * margin;
+  const bool shrunk = drawn.size() > 1 && all.diagonal() < kShrunk * (base.bbox_max - base.bbox_min).norm();
   if (!shrunk) {
     check_lengths(drawn, report);
   }
   if (count == drawn.size() || shrunk) {
     if (!drawn.empty()) {
-      const Cause cause = shrunk ? Cause{"these look like degrees", "save the layer in its own local metres"}
-                                 : likely_cause(all, allowed, base.frame);
+      const Cause cause = shrunk ? Cause{"these look like degrees",
+                                         "save the layer in the coordinate system of the scan, in metres"}
+                                 : likely_cause(all, allowed, plan, base);
       report.problem(errors::kLinesOutside, "all " + std::to_string(drawn.size()) + " lines",
                      (shrunk ? "lie on one spot: " : "lie far outside the scan: ") + cause.what, cause.hint);
     }
@@ -95,7 +114,7 @@ void check_edit_extent(const std::vector<DrawnLine>& drawn, const WallLines& bas
       Box one;
       one.add(d.line.a);
       one.add(d.line.b);
-      const Cause cause = likely_cause(one, allowed, base.frame);
+      const Cause cause = likely_cause(one, allowed, plan, base);
       report.problem(errors::kLinesOutside, feature_place(d.feature, d.line.id),
                      "lies far outside the scan: " + cause.what, cause.hint);
     }

@@ -88,7 +88,7 @@ std::optional<std::vector<int>> levels_of(Json value) {
 
 class FeatureReader {
  public:
-  FeatureReader(const Vec2& shift, EditReport& report) : shift_(shift), report_(report) {}
+  explicit FeatureReader(EditReport& report) : report_(report) {}
 
   std::vector<DrawnLine> read(const Json& feature, std::size_t index) {
     index_ = index;
@@ -211,7 +211,7 @@ class FeatureReader {
         return {};
       }
       third = third || point.size() > 2;
-      points.push_back(rounded_point(Vec2(*x, *y) + shift_));
+      points.push_back(rounded_point(Vec2(*x, *y)));
     }
     if (count < 2) {
       problem(errors::kLinesCoordinates, "has " + std::to_string(count) + " points, a line needs two",
@@ -237,7 +237,6 @@ class FeatureReader {
     return kept;
   }
 
-  Vec2 shift_;
   EditReport& report_;
   std::size_t index_ = 0;
   std::string id_;
@@ -250,9 +249,9 @@ std::string feature_place(std::size_t index, const std::string& id) {
   return id.empty() ? place : place + " (wall_id " + id + ")";
 }
 
-std::vector<DrawnLine> read_edit_features(const Json& features, const Vec2& shift, EditReport& report) {
+std::vector<DrawnLine> read_edit_features(const Json& features, EditReport& report) {
   std::vector<DrawnLine> drawn;
-  FeatureReader reader(shift, report);
+  FeatureReader reader(report);
   for (std::size_t i = 0; i < features.size(); ++i) {
     const std::vector<DrawnLine> lines = reader.read(features[i], i);
     drawn.insert(drawn.end(), lines.begin(), lines.end());

@@ -130,6 +130,7 @@ std::vector<WallLine> identify_lines(std::vector<DrawnLine> drawn, const WallLin
   drop_copied_ids(drawn, base, report);
   name_pieces(drawn);
   WallLines named;
+  named.frame = base.frame;
   for (DrawnLine& d : drawn) {
     named.lines.push_back(std::move(d.line));
   }

@@ -12,14 +12,21 @@ WallLinesFile read_edited_wall_lines(const std::filesystem::path& path, const Wa
   report.path = path.string();
   const Json document = read_edit_document(path, report);
   const EditOrigin origin = read_edit_member(document, base.frame, report);
-  std::vector<DrawnLine> drawn = read_edit_features(document["features"], origin.shift, report);
+  std::vector<DrawnLine> drawn = read_edit_features(document["features"], report);
   if (drawn.empty() && report.problems.empty()) {
     report.problem(errors::kLinesNone, "", "has no line left",
                    "draw one, or remove the file to go back to the detected lines (`make drop-edit`)");
   }
-  check_edit_extent(drawn, base, report);
+  const LineCoordinates coordinates =
+      origin.coordinates ? *origin.coordinates : judge_coordinates(drawn, base, report);
+  const EditPlan plan(coordinates, origin.frame, base.frame);
+  check_edit_extent(drawn, plan, base, report);
   if (!report.problems.empty()) {
     throw StageError(report.problems);
+  }
+  for (DrawnLine& d : drawn) {
+    d.line.a = plan.to_base(d.line.a);
+    d.line.b = plan.to_base(d.line.b);
   }
   WallLinesFile file;
   file.content.frame = base.frame;

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "common/artefact/artefact_check.h"
-#include "common/artefact/local_crs.h"
+#include "common/artefact/frame_crs.h"
 #include "common/artefact/sha256.h"
 #include "common/wall_lines/wall_lines_io.h"
 
@@ -45,7 +45,11 @@ std::string levels_text(const WallLine& line) {
   return line.levels ? Json(*line.levels).dump() : "null";
 }
 
-std::string feature_text(const WallLine& line) {
+std::string point_text(const Vec2& point) {
+  return fixed(point.x()) + ", " + fixed(point.y());
+}
+
+std::string feature_text(const WallLine& line, const FilePlan& plan) {
   std::string text =
       R"({"type": "Feature", "id": )" + json_text(line.id) + R"(, "properties": {"wall_id": )" +
       json_text(line.id) + R"(, "source": )" + json_text(source_name(line.source)) + R"(, "locked": )" +
@@ -57,19 +61,19 @@ std::string feature_text(const WallLine& line) {
   for (const auto& item : extra.items()) {
     text += ", " + json_text(item.key()) + ": " + canonical_json(item.value());
   }
-  return text + R"(}, "geometry": {"type": "LineString", "coordinates": [[)" + fixed(line.a.x()) + ", " +
-         fixed(line.a.y()) + "], [" + fixed(line.b.x()) + ", " + fixed(line.b.y()) + "]]}}";
+  return text + R"(}, "geometry": {"type": "LineString", "coordinates": [[)" +
+         point_text(plan.to_file(line.a)) + "], [" + point_text(plan.to_file(line.b)) + "]]}}";
 }
 
-std::string box_text(const WallLines& lines) {
-  return "[" + fixed(lines.bbox_min.x()) + ", " + fixed(lines.bbox_min.y()) + ", " +
-         fixed(lines.bbox_max.x()) + ", " + fixed(lines.bbox_max.y()) + "]";
+std::string box_text(const WallLines& lines, const FilePlan& plan) {
+  return "[" + point_text(plan.to_file(lines.bbox_min)) + ", " + point_text(plan.to_file(lines.bbox_max)) +
+         "]";
 }
 
-std::string features_text(const WallLines& lines) {
+std::string features_text(const WallLines& lines, const FilePlan& plan) {
   std::string text;
   for (const WallLine& line : lines.lines) {
-    text += (text.empty() ? "" : ",\n") + feature_text(line);
+    text += (text.empty() ? "" : ",\n") + feature_text(line, plan);
   }
   return text;
 }
@@ -103,15 +107,22 @@ Vec2 rounded_point(const Vec2& point) {
   return {rounded_coordinate(point.x()), rounded_coordinate(point.y())};
 }
 
-WallLines normalised_lines(WallLines lines) {
-  lines.bbox_min = rounded_point(lines.bbox_min);
-  lines.bbox_max = rounded_point(lines.bbox_max);
+Vec2 FilePlan::to_file(const Vec2& local) const {
+  return rounded_point(local_ ? local : scan_.plan_to_scan(local));
+}
+
+WallLines normalised_lines(WallLines lines, LineCoordinates coordinates) {
+  const FilePlan plan(lines.frame, coordinates);
+  lines.bbox_min = plan.to_local(plan.to_file(lines.bbox_min));
+  lines.bbox_max = plan.to_local(plan.to_file(lines.bbox_max));
   for (WallLine& line : lines.lines) {
-    line.a = rounded_point(line.a);
-    line.b = rounded_point(line.b);
-    if (std::pair(line.b.x(), line.b.y()) < std::pair(line.a.x(), line.a.y())) {
-      std::swap(line.a, line.b);
+    Vec2 a = plan.to_file(line.a);
+    Vec2 b = plan.to_file(line.b);
+    if (std::pair(b.x(), b.y()) < std::pair(a.x(), a.y())) {
+      std::swap(a, b);
     }
+    line.a = plan.to_local(a);
+    line.b = plan.to_local(b);
   }
   std::sort(lines.lines.begin(), lines.lines.end(),
             [](const WallLine& a, const WallLine& b) { return a.id < b.id; });
@@ -120,22 +131,30 @@ WallLines normalised_lines(WallLines lines) {
 
 std::string wall_lines_text(const WallLines& normalised, const Provenance& provenance,
                             const std::string& payload_sha256) {
+  const FilePlan plan(normalised.frame, LineCoordinates::kScan);
   Json made = to_json(provenance);
   made["payload_sha256"] = payload_sha256;
   return std::string("{\n\"type\": \"FeatureCollection\",\n\"name\": \"wall_lines\",\n") +
-         "\"crs\": {\"type\": \"name\", \"properties\": {\"name\": " + json_text(kLocalCrs) + "}},\n\"" +
-         kMember + "\": {\n\"artefact\": \"wall_lines\",\n\"schema_version\": " +
-         json_text(version_text(artefacts::kWallLines)) +
-         ",\n\"length_unit\": \"m\",\n\"frame\": " + canonical_json(to_json(normalised.frame)) +
-         ",\n\"bbox\": " + box_text(normalised) + ",\n\"base_sha256\": " + json_text(normalised.base_sha256) +
+         "\"crs\": {\"type\": \"name\", \"properties\": {\"name\": " + json_text(crs_of(normalised.frame)) +
+         "}},\n\"" + kMember + "\": {\n\"artefact\": \"wall_lines\",\n\"schema_version\": " +
+         json_text(version_text(artefacts::kWallLines)) + ",\n\"length_unit\": \"m\",\n\"" + kCoordinatesKey +
+         "\": \"" + kScanCoordinates + "\",\n\"frame\": " + canonical_json(to_json(normalised.frame)) +
+         ",\n\"bbox\": " + box_text(normalised, plan) +
+         ",\n\"base_sha256\": " + json_text(normalised.base_sha256) +
          ",\n\"provenance\": " + canonical_json(made) + "\n},\n\"features\": [\n" +
-         features_text(normalised) + "\n]\n}\n";
+         features_text(normalised, plan) + "\n]\n}\n";
+}
+
+std::string lines_payload_sha256(const WallLines& lines, LineCoordinates coordinates,
+                                 const std::string& version) {
+  const WallLines normalised = normalised_lines(lines, coordinates);
+  const FilePlan plan(normalised.frame, coordinates);
+  return sha256_hex(version + "\n" + canonical_json(to_json(normalised.frame)) + "\n" +
+                    box_text(normalised, plan) + "\n" + features_text(normalised, plan));
 }
 
 std::string wall_lines_payload_sha256(const WallLines& lines) {
-  const WallLines normalised = normalised_lines(lines);
-  return sha256_hex(version_text(artefacts::kWallLines) + "\n" + canonical_json(to_json(normalised.frame)) +
-                    "\n" + box_text(normalised) + "\n" + features_text(normalised));
+  return lines_payload_sha256(lines, LineCoordinates::kScan, version_text(artefacts::kWallLines));
 }
 
 bool write_wall_lines(const std::filesystem::path& path, const WallLines& lines,

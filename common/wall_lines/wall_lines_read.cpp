@@ -7,6 +7,7 @@
 #include "common/artefact/artefact_check.h"
 #include "common/artefact/atomic_file.h"
 #include "common/artefact/known_artefacts.h"
+#include "common/artefact/limits.h"
 #include "common/errors/codes.h"
 #include "common/wall_lines/wall_lines_format.h"
 #include "common/wall_lines/wall_lines_io.h"
@@ -19,8 +20,25 @@ constexpr double kDegToRad = std::numbers::pi / 180.0;
 constexpr double kMostDegrees = 1e6;  ///< of a deviation: of a line that is not known at all
 constexpr int kMostLevels = 1'000'000;
 
-Vec2 point_from(const Json& value) {
-  return {local_metres(value.at(0)), local_metres(value.at(1))};
+Vec2 point_from(const Json& x, const Json& y, const FilePlan& plan) {
+  const Vec2 local = plan.to_local({scan_metres(x), scan_metres(y)});
+  if (!limits::is_local(local.x()) || !limits::is_local(local.y())) {
+    throw BadJson("a point lies impossibly far from the frame's origin");
+  }
+  return local;
+}
+
+Vec2 point_from(const Json& value, const FilePlan& plan) {
+  return point_from(value.at(0), value.at(1), plan);
+}
+
+/// Files of version 1.0 do not say it: theirs are local.
+LineCoordinates coordinates_of(const Json& member) {
+  const std::string text = member.value(kCoordinatesKey, std::string(kLocalCoordinates));
+  if (text != kScanCoordinates && text != kLocalCoordinates) {
+    throw BadJson("coordinates are neither those of the scan nor local");
+  }
+  return text == kScanCoordinates ? LineCoordinates::kScan : LineCoordinates::kLocal;
 }
 
 std::string unknown_properties(const Json& properties) {
@@ -34,7 +52,7 @@ std::string unknown_properties(const Json& properties) {
   return canonical_json(extra);
 }
 
-WallLine line_from(const Json& feature) {
+WallLine line_from(const Json& feature, const FilePlan& plan) {
   const Json& geometry = feature.at("geometry");
   const Json& properties = feature.at("properties");
   if (geometry.at("type") != "LineString" || geometry.at("coordinates").size() != 2) {
@@ -42,8 +60,8 @@ WallLine line_from(const Json& feature) {
   }
   WallLine line;
   line.id = properties.at("wall_id").get<std::string>();
-  line.a = point_from(geometry.at("coordinates").at(0));
-  line.b = point_from(geometry.at("coordinates").at(1));
+  line.a = point_from(geometry.at("coordinates").at(0), plan);
+  line.b = point_from(geometry.at("coordinates").at(1), plan);
   if (line.a == line.b) {
     throw BadJson("both ends are equal");
   }
@@ -66,14 +84,15 @@ WallLine line_from(const Json& feature) {
   return line;
 }
 
-void read_member(const Json& member, WallLinesFile& file) {
+void read_member(const Json& member, LineCoordinates coordinates, WallLinesFile& file) {
   if (member.at("length_unit") != "m") {
     throw BadJson("length_unit is not m");
   }
   file.content.frame = frame_from_json(member.at("frame"));
+  const FilePlan plan(file.content.frame, coordinates);
   const Json& box = member.at("bbox");
-  file.content.bbox_min = {local_metres(box.at(0)), local_metres(box.at(1))};
-  file.content.bbox_max = {local_metres(box.at(2)), local_metres(box.at(3))};
+  file.content.bbox_min = point_from(box.at(0), box.at(1), plan);
+  file.content.bbox_max = point_from(box.at(2), box.at(3), plan);
   file.content.base_sha256 = member.at("base_sha256").get<std::string>();
   const std::string& base = file.content.base_sha256;  // no digest covers it
   if (!base.empty() &&
@@ -83,10 +102,10 @@ void read_member(const Json& member, WallLinesFile& file) {
   file.provenance = provenance_from_json(member.at("provenance"));
 }
 
-void read_features(const Json& features, std::vector<WallLine>& lines) {
+void read_features(const Json& features, const FilePlan& plan, std::vector<WallLine>& lines) {
   for (std::size_t i = 0; i < features.size(); ++i) {
     try {
-      lines.push_back(line_from(features.at(i)));
+      lines.push_back(line_from(features.at(i), plan));
     } catch (const Json::exception& error) {
       throw BadJson("features[" + std::to_string(i) + "]: " + short_message(error));
     } catch (const std::exception& error) {
@@ -106,6 +125,7 @@ void read_features(const Json& features, std::vector<WallLine>& lines) {
 
 WallLinesFile read_wall_lines(const std::filesystem::path& path) {
   WallLinesFile file;
+  LineCoordinates coordinates = LineCoordinates::kScan;
   InputRecord record{"", artefacts::kWallLines.name, "", "", ""};
   try {
     const Json document = parse_json(read_text_file(path));
@@ -113,15 +133,16 @@ WallLinesFile read_wall_lines(const std::filesystem::path& path) {
     record.schema_version = member.at("schema_version").get<std::string>();
     check_type_and_version(path, member.at("artefact").get<std::string>(), record.schema_version,
                            artefacts::kWallLines);
-    read_member(member, file);
-    read_features(document.at("features"), file.content.lines);
+    coordinates = coordinates_of(member);
+    read_member(member, coordinates, file);
+    read_features(document.at("features"), FilePlan(file.content.frame, coordinates), file.content.lines);
     record.payload_sha256 = member.at("provenance").at("payload_sha256").get<std::string>();
   } catch (const Json::exception& error) {
     throw_damaged(path, "", "not a wall_lines artefact: " + short_message(error));
   } catch (const BadJson& error) {
     throw_damaged(path, "", error.what());
   }
-  file.payload_sha256 = wall_lines_payload_sha256(file.content);
+  file.payload_sha256 = lines_payload_sha256(file.content, coordinates, record.schema_version);
   if (kDigestsCount && file.payload_sha256 != record.payload_sha256) {
     throw StageError(errors::kArtefactDamaged, path.string(), kNotAsWritten,
                      std::string(kMakeAgain) + "; lines drawn by hand go to edits/wall_lines.geojson");

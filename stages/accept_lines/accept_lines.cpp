@@ -63,12 +63,13 @@ Acceptance accept_lines(const WallLines& detected, const std::string& detection_
 
 std::string describe_moved_base(const Acceptance& acceptance, const std::string& detection_sha256,
                                 std::size_t most) {
+  const ScanCoordinates scan(acceptance.lines.frame);
   std::vector<std::string> items;
   for (const WallLine& line : acceptance.only_detected) {
-    items.push_back("only the detection has " + describe(line));
+    items.push_back("only the detection has " + describe(line, scan));
   }
   for (const WallLine& line : acceptance.only_edited) {
-    items.push_back("only the edit has       " + describe(line));
+    items.push_back("only the edit has       " + describe(line, scan));
   }
   std::string text =
       "the detection changed since the edit began; the edit stays in force, check it (when done, write "

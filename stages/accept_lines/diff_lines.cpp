@@ -31,8 +31,8 @@ void body(StageRun& run) {
     run.warn(warning);
   }
   const Acceptance accepted = accept_lines(detected.content, detected.payload_sha256, edit.content);
-  for (const std::string& line :
-       describe_changes(accepted.changes, detected.content.lines, edit.content.lines)) {
+  for (const std::string& line : describe_changes(accepted.changes, detected.content.lines,
+                                                  edit.content.lines, detected.content.frame)) {
     std::cout << line << "\n";
   }
   if (accepted.base_moved) {

@@ -14,7 +14,7 @@ using namespace roomcut;
 StageInfo info() {
   StageInfo stage;
   stage.name = "accept_lines";
-  stage.revision = 1;
+  stage.revision = 2;
   stage.summary = "Takes the hand-edited wall lines if there are any, else the detected ones";
   stage.inputs = {{"detected", "30_detect_lines/wall_lines.geojson", "Detected wall lines"},
                   {"edit", "edits/wall_lines.geojson", "Wall lines edited by hand", true, true}};

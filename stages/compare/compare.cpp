@@ -7,6 +7,8 @@
 #include <numbers>
 #include <tuple>
 
+#include "common/geometry/scan_coordinates.h"
+
 namespace roomcut {
 
 namespace {
@@ -128,11 +130,12 @@ Matches match_rooms(const std::vector<SpaceFacts>& a, const std::vector<SpaceFac
 }
 
 std::vector<WallLine> lines_in(const RunFacts& run, const Frame& frame) {
-  const Vec2 shift(run.frame.origin[0] - frame.origin[0], run.frame.origin[1] - frame.origin[1]);
+  const ScanCoordinates own(run.frame);
+  const ScanCoordinates other(frame);
   std::vector<WallLine> lines = run.lines;
   for (WallLine& line : lines) {
-    line.a += shift;
-    line.b += shift;
+    line.a = other.plan_to_local(own.plan_to_scan(line.a));
+    line.b = other.plan_to_local(own.plan_to_scan(line.b));
   }
   return lines;
 }

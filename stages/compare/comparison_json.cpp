@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "common/artefact/artefact_check.h"
+#include "common/geometry/scan_coordinates.h"
 #include "stages/compare/comparison_json.h"
 
 namespace roomcut {
@@ -15,10 +16,11 @@ Json run_json(const RunFacts& run) {
           {"lines_file", run.lines_file}};
 }
 
-Json line_json(const WallLine& line) {
-  return {{"wall_id", line.id},
-          {"length_m", line.length()},
-          {"ends_m", {line.a.x(), line.a.y(), line.b.x(), line.b.y()}}};
+Json line_json(const WallLine& line, const ScanCoordinates& scan) {
+  const Vec2 from = scan.plan_to_scan(line.a);
+  const Vec2 to = scan.plan_to_scan(line.b);
+  return {
+      {"wall_id", line.id}, {"length_m", line.length()}, {"ends_m", {from.x(), from.y(), to.x(), to.y()}}};
 }
 
 Json lines_json(const RunFacts& a, const RunFacts& b, const LineMatches& lines) {
@@ -34,11 +36,12 @@ Json lines_json(const RunFacts& a, const RunFacts& b, const LineMatches& lines) 
     }
   }
   const auto b_lines = lines_in(b, a.frame);
+  const ScanCoordinates scan(a.frame);
   for (const std::size_t i : lines.only_a) {
-    out["only_a"].push_back(line_json(a.lines[i]));
+    out["only_a"].push_back(line_json(a.lines[i], scan));
   }
   for (const std::size_t i : lines.only_b) {
-    out["only_b"].push_back(line_json(b_lines[i]));
+    out["only_b"].push_back(line_json(b_lines[i], scan));
   }
   return out;
 }

@@ -106,6 +106,7 @@ WordTable line_rows(const RunFacts& a, const RunFacts& b, const Comparison& comp
   WordTable table{"Wall lines", {"A", "B", "", "offset [mm]", "turn [deg]", "ends [mm]"}, {}, ""};
   const LineMatches& lines = comparison.lines;
   const auto b_lines = lines_in(b, a.frame);
+  const ScanCoordinates scan(a.frame);
   std::size_t moved = 0;
   for (const LinePair& pair : lines.pairs) {
     if (pair.move.offset_m < kShownMove_m && pair.move.ends_m < 10 * kShownMove_m) {
@@ -120,10 +121,10 @@ WordTable line_rows(const RunFacts& a, const RunFacts& b, const Comparison& comp
     }
   }
   for (const std::size_t i : lines.only_a) {
-    table.rows.push_back({describe(a.lines[i]), "", "only in A", "", "", ""});
+    table.rows.push_back({describe(a.lines[i], scan), "", "only in A", "", "", ""});
   }
   for (const std::size_t k : lines.only_b) {
-    table.rows.push_back({"", describe(b_lines[k]), "only in B", "", "", ""});
+    table.rows.push_back({"", describe(b_lines[k], scan), "only in B", "", "", ""});
   }
   table.note = std::to_string(lines.same()) + " the same, " +
                std::to_string(lines.pairs.size() - lines.same()) + " moved (" + std::to_string(moved) +

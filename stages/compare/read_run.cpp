@@ -110,10 +110,10 @@ SpaceFacts space_of(const Json& entry) {
   space.storey = index_in(entry, "storey", 0);
   space.number = index_in(entry, "room", space.storey);
   if (entry.contains("centre_m")) {
-    space.centre = {local_metres(entry["centre_m"].at(0)), local_metres(entry["centre_m"].at(1))};
+    space.centre = {scan_metres(entry["centre_m"].at(0)), scan_metres(entry["centre_m"].at(1))};
   }
-  space.floor_z = local_metres(entry.value("floor_z_m", Json(0)));
-  space.ceiling_z = local_metres(entry.value("ceiling_z_m", Json(0)));
+  space.floor_z = scan_metres(entry.value("floor_z_m", Json(0)));
+  space.ceiling_z = scan_metres(entry.value("ceiling_z_m", Json(0)));
   space.area_m2 = entry.value("area_m2", 0.0);
   space.volume_m3 = entry.value("volume_m3", 0.0);
   space.height_m = entry.value("height_m", 0.0);

@@ -15,7 +15,7 @@ namespace roomcut {
 struct SpaceFacts {
   int number = 0;  ///< of the storey or of the room
   int storey = 0;
-  Vec2 centre{0, 0};  ///< of a room
+  Vec2 centre{0, 0};  ///< of its plan
   double floor_z = 0, ceiling_z = 0;
   double area_m2 = 0, volume_m3 = 0, height_m = 0, unobserved_m3 = 0;
 };

@@ -18,7 +18,7 @@ std::vector<Vec2> StoreyLayer::corners(std::size_t face) const {
   const CellComplex& complex = run.plan->complex;
   std::vector<Vec2> out;
   for (auto i = complex.face_offset[face]; i < complex.face_offset[face + 1]; ++i) {
-    out.emplace_back(complex.vertices[complex.face_vertex[i]] + shift);
+    out.emplace_back(placed(complex.vertices[complex.face_vertex[i]]));
   }
   return out;
 }
@@ -36,21 +36,21 @@ std::optional<StoreyLayer> layer_of(const RunFacts& run, const SpaceFacts* store
     return std::nullopt;
   }
   const auto& levels = run.plan->complex.levels;
-  const double z = storey->floor_z - run.frame.origin[2] + kCut_m;
+  const ScanCoordinates own(run.frame);
+  const double z = own.to_local(Vec3(storey->centre.x(), storey->centre.y(), storey->floor_z)).z() + kCut_m;
   const auto above = std::upper_bound(levels.begin(), levels.end(), z);
   if (above == levels.begin() || above == levels.end()) {
     return std::nullopt;
   }
   const auto layer = static_cast<std::size_t>(above - levels.begin()) - 1;
-  const Vec2 shift(run.frame.origin[0] - frame.origin[0], run.frame.origin[1] - frame.origin[1]);
-  return StoreyLayer{run, layer, shift, levels[layer], levels[layer + 1]};
+  return StoreyLayer{run, layer, own, ScanCoordinates(frame), levels[layer], levels[layer + 1]};
 }
 
 void draw_walls(Svg& svg, const StoreyLayer& layer, double width_px) {
   const CellComplex& complex = layer.run.plan->complex;
   for (const CellComplex::Edge& edge : complex.edges) {
     if (layer.empty(edge.left) != layer.empty(edge.right)) {
-      svg.line(complex.vertices[edge.v0] + layer.shift, complex.vertices[edge.v1] + layer.shift, kWall,
+      svg.line(layer.placed(complex.vertices[edge.v0]), layer.placed(complex.vertices[edge.v1]), kWall,
                width_px);
     }
   }
@@ -64,7 +64,7 @@ void draw_openings(Svg& svg, const StoreyLayer& layer) {
       std::vector<Vec2> corners = {opening.jamb_a + across, opening.jamb_b + across, opening.jamb_b - across,
                                    opening.jamb_a - across};
       for (Vec2& corner : corners) {
-        corner += layer.shift;
+        corner = layer.placed(corner);
       }
       svg.polygon(corners, kOpening, 1, opening.id);
     }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/geometry/scan_coordinates.h"
 #include "common/picture/svg.h"
 #include "stages/compare/run_facts.h"
 
@@ -14,10 +15,12 @@ namespace roomcut {
 struct StoreyLayer {
   const RunFacts& run;
   std::size_t layer;
-  Vec2 shift;
-  double low, high;  ///< heights, local [m]
+  ScanCoordinates own, drawing;  ///< of the run's frame and of the drawing's
+  double low, high;              ///< heights, local [m]
 
   std::size_t faces() const { return run.plan->complex.faces(); }
+  /// A place of the run in the drawing.
+  Vec2 placed(const Vec2& local) const { return drawing.plan_to_local(own.plan_to_scan(local)); }
   std::vector<Vec2> corners(std::size_t face) const;
   bool empty(std::int32_t face) const;  ///< false for -1, beyond the bounding box
   bool unobserved(std::size_t face) const;

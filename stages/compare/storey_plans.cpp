@@ -36,8 +36,7 @@ Svg empty_drawing(const Box& box) {
   return {low, high, kWidth_px / (high - low).x()};
 }
 
-std::string draw_side(const Box& box, const StoreyLayer& layer, const SpaceFacts& storey,
-                      const Frame& frame) {
+std::string draw_side(const Box& box, const StoreyLayer& layer, const SpaceFacts& storey) {
   Svg svg = empty_drawing(box);
   for (std::size_t f = 0; f < layer.faces(); ++f) {
     if (layer.empty(static_cast<std::int32_t>(f))) {
@@ -48,7 +47,7 @@ std::string draw_side(const Box& box, const StoreyLayer& layer, const SpaceFacts
   draw_openings(svg, layer);
   for (const SpaceFacts& room : layer.run.rooms) {
     if (room.storey == storey.storey) {
-      const Vec2 at = room.centre - Vec2(frame.origin[0], frame.origin[1]);
+      const Vec2 at = layer.drawing.to_local(Vec3(room.centre.x(), room.centre.y(), room.floor_z)).head<2>();
       svg.text(at, std::to_string(room.number) + ": " + fixed_number(room.area_m2, 1) + " m²", 10, kWords);
     }
   }
@@ -103,8 +102,8 @@ std::vector<StoreyPlans> draw_storeys(const RunFacts& a, const RunFacts& b, cons
     StoreyPlans plan;
     plan.title =
         "Storey " + std::to_string(storey.storey) + ", floor at " + fixed_number(storey.floor_z, 2) + " m";
-    plan.a = layer_a ? draw_side(box, *layer_a, *in_a, a.frame) : "";
-    plan.b = layer_b ? draw_side(box, *layer_b, *in_b, a.frame) : "";
+    plan.a = layer_a ? draw_side(box, *layer_a, *in_a) : "";
+    plan.b = layer_b ? draw_side(box, *layer_b, *in_b) : "";
     Svg svg = empty_drawing(box);
     const std::string number = std::to_string(plans.size());
     if (layer_a) {

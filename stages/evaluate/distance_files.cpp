@@ -9,7 +9,7 @@
 
 namespace roomcut {
 
-void write_distance_ply(const std::filesystem::path& path, const DistanceMesh& mesh, const Vec3& origin,
+void write_distance_ply(const std::filesystem::path& path, const DistanceMesh& mesh, const ComparedAxes& axes,
                         double range_m) {
   VertexExtras extras;
   for (const double distance : mesh.distance_m) {
@@ -17,8 +17,12 @@ void write_distance_ply(const std::filesystem::path& path, const DistanceMesh& m
     extras.colour.push_back({colour.r, colour.g, colour.b});
     extras.distance_m.push_back(static_cast<float>(distance));
   }
-  write_text_file(
-      path, ply_bytes(mesh.mesh, origin, {"distance to the truth in metres; cut up for display"}, extras));
+  TriangleMesh as_the_files = mesh.mesh;
+  for (Vec3& vertex : as_the_files.vertices) {
+    vertex = axes.turn.transpose() * vertex;
+  }
+  write_text_file(path, ply_bytes(as_the_files, axes.origin,
+                                  {"distance to the truth in metres; cut up for display"}, extras));
 }
 
 void write_distance_png(const std::filesystem::path& path, const DistanceMesh& mesh, double range_m) {

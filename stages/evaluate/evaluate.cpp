@@ -127,10 +127,10 @@ std::size_t Scores::in_merged_groups() const {
   return count;
 }
 
-TriangleMesh prepared(const TriangleMesh& mesh, const Vec3& origin) {
+TriangleMesh prepared(const TriangleMesh& mesh, const ComparedAxes& axes) {
   TriangleMesh out = weld_vertices(mesh);
   for (Vec3& p : out.vertices) {
-    p -= origin;
+    p = axes.from_file(p);
   }
   if (volume(out) < 0) {
     flip_orientation(out);

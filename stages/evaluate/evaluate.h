@@ -54,15 +54,23 @@ struct Scores {
   std::size_t in_merged_groups() const;
 };
 
-/// Prepares a mesh as it came from a file: equal vertices welded, moved by -`origin`, normals out of the
-/// enclosed space.
-TriangleMesh prepared(const TriangleMesh& mesh, const Vec3& origin);
+/// The axes in which model, truth and cells are compared: moved near the origin, so that sums and products
+/// stay small, and turned as the cells of a levelled scan are.
+struct ComparedAxes {
+  Vec3 origin{0, 0, 0};  ///< in the coordinates of the files
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  Vec3 from_file(const Vec3& p) const { return turn * (p - origin); }
+};
 
-/// Scores `model` against `truth`, both prepared() with the same origin, which lies near them; `rooms` in the
-/// same frame; `cells`, if given, are those that the model was made of, and are explained. Throws
-/// StageError(kMeshNotClosed) when the truth is not a closed, oriented mesh, kTooComplex when a chosen
-/// spacing asks for more than 20 million samples; with `auto` the spacing grows until 1 million do. Parallel;
-/// the same result for any number of threads.
+/// Prepares a mesh as it came from a file: equal vertices welded, brought into `axes`, normals out of the
+/// enclosed space.
+TriangleMesh prepared(const TriangleMesh& mesh, const ComparedAxes& axes);
+
+/// Scores `model` against `truth`, both prepared() with the same axes; `rooms` in them, too; `cells`, if
+/// given, are those that the model was made of, and are explained. Throws StageError(kMeshNotClosed) when the
+/// truth is not a closed, oriented mesh, kTooComplex when a chosen spacing asks for more than 20 million
+/// samples; with `auto` the spacing grows until 1 million do. Parallel; the same result for any number of
+/// threads.
 Scores evaluate(const TriangleMesh& model, const TriangleMesh& truth, const std::vector<DescribedRoom>& rooms,
                 const EvaluateParams& params, const LabelledCells* cells = nullptr);
 

@@ -12,14 +12,15 @@
 
 namespace roomcut {
 
-/// The `rooms` of a truth.json, moved by -`origin`: name, floor, ceiling and either `polygon` ([[x, y], …])
+/// The `rooms` of a truth.json, brought into `axes`: name, floor, ceiling and either `polygon` ([[x, y], …])
 /// or a point in it (`center`). Other members are ignored. Throws StageError(kMeshFormat) for what is not
 /// that.
-std::vector<DescribedRoom> read_described_rooms(const std::filesystem::path& path, const Vec3& origin);
+std::vector<DescribedRoom> read_described_rooms(const std::filesystem::path& path, const ComparedAxes& axes);
 
-/// The cells, labels and, if given, data terms of one pass, moved by -`origin`. Errors as in cells_io.h.
+/// The cells, labels and, if given, data terms of one pass, brought into `axes`, whose turn becomes that of
+/// the cells: their faces stay upright and level. Errors as in cells_io.h.
 LabelledCells read_labelled_cells(const std::filesystem::path& cells, const std::filesystem::path& labels,
-                                  const std::filesystem::path& terms, const Vec3& origin);
+                                  const std::filesystem::path& terms, ComparedAxes& axes);
 
 /// The member `explanation` of scores.json, and its rows in the table.
 Json explanation_json(const Explanation& explanation, const Scores& scores);
@@ -37,7 +38,7 @@ Json scores_json(const Scores& scores);
 std::string scores_table(const Scores& scores);
 
 /// distance.ply: vertices coloured from 0 (dark) to `range_m` and beyond (bright), and the distance itself.
-void write_distance_ply(const std::filesystem::path& path, const DistanceMesh& mesh, const Vec3& origin,
+void write_distance_ply(const std::filesystem::path& path, const DistanceMesh& mesh, const ComparedAxes& axes,
                         double range_m);
 /// distance.png: the same seen from above at an angle, looking into the rooms.
 void write_distance_png(const std::filesystem::path& path, const DistanceMesh& mesh, double range_m);

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "common/cells/cells_io.h"
+#include "common/geometry/level_turn.h"
 #include "stages/evaluate/evaluate_io.h"
 
 namespace roomcut {
@@ -42,7 +43,7 @@ std::string evidence_text(const Explanation::Evidence& e) {
 }  // namespace
 
 LabelledCells read_labelled_cells(const std::filesystem::path& cells, const std::filesystem::path& labels,
-                                  const std::filesystem::path& terms, const Vec3& origin) {
+                                  const std::filesystem::path& terms, ComparedAxes& axes) {
   const CellsFile file = read_cells(cells);
   LabelledCells out;
   out.label = read_labels(labels, file).label;
@@ -50,8 +51,9 @@ LabelledCells read_labelled_cells(const std::filesystem::path& cells, const std:
   if (!terms.empty()) {
     out.terms = read_data_terms(terms, file);
   }
+  axes.turn = level_turn(file.complex.frame.level);
   const double* local = file.complex.frame.origin;
-  out.complex = moved(file.complex, Vec3(local[0], local[1], local[2]) - origin);
+  out.complex = moved(file.complex, axes.from_file(Vec3(local[0], local[1], local[2])));
   return out;
 }
 

@@ -56,20 +56,20 @@ void body(StageRun& run, const EvaluateParams& params) {
   const TriangleMesh model_file = read_mesh(run.input("model"));
   const Bounds3 box = bounds(truth_file);
   require_comparable({run.input("model").string(), bounds(model_file)}, {run.input("truth").string(), box});
-  const Vec3 origin = 0.5 * (box.lo + box.hi);  // sums and products stay small far from the origin
-  std::vector<DescribedRoom> rooms;
-  if (run.has_input("truth-json")) {
-    rooms = read_described_rooms(run.input("truth-json"), origin);
-  }
-  const TriangleMesh truth = prepared(truth_file, origin);
-  const TriangleMesh model = prepared(model_file, origin);
+  ComparedAxes axes{0.5 * (box.lo + box.hi)};
   std::optional<LabelledCells> cells;
   if (!run.input("cells").empty()) {
-    cells = read_labelled_cells(run.input("cells"), run.input("labels"), run.input("terms"), origin);
+    cells = read_labelled_cells(run.input("cells"), run.input("labels"), run.input("terms"), axes);
   }
+  std::vector<DescribedRoom> rooms;
+  if (run.has_input("truth-json")) {
+    rooms = read_described_rooms(run.input("truth-json"), axes);
+  }
+  const TriangleMesh truth = prepared(truth_file, axes);
+  const TriangleMesh model = prepared(model_file, axes);
   const Scores scores = evaluate(model, truth, rooms, params, cells ? &*cells : nullptr);
   const DistanceMesh coloured = measure_for_display(model, MeshTree(truth));
-  write_distance_ply(run.output("coloured"), coloured, origin, params.colour_range_m);
+  write_distance_ply(run.output("coloured"), coloured, axes, params.colour_range_m);
   write_distance_png(run.output("picture"), coloured, params.colour_range_m);
   write_json_artefact(run.output("scores"), artefacts::kScores, run.provenance(), Frame{},
                       scores_json(scores));

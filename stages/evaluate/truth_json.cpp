@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/artefact/atomic_file.h"
-#include "common/artefact/limits.h"
 #include "common/errors/codes.h"
 #include "stages/evaluate/evaluate_io.h"
 
@@ -8,30 +7,31 @@ namespace roomcut {
 
 namespace {
 
-/// In the scan's coordinates.
-double coordinate(const Json& value) {
-  return number_in(value, -limits::kFarthestOrigin_m, limits::kFarthestOrigin_m);
-}
-
-DescribedRoom described(const Json& room, const Vec3& origin) {
+DescribedRoom described(const Json& room, const ComparedAxes& axes) {
   DescribedRoom out;
   out.name = room.at("name").get<std::string>();
-  out.floor = coordinate(room.at("floor")) - origin.z();
-  out.ceiling = coordinate(room.at("ceiling")) - origin.z();
+  const double floor = scan_metres(room.at("floor"));
+  const double height = scan_metres(room.at("ceiling")) - floor;
+  Vec3 middle(0, 0, 0);  // of the floor: there its height counts, should the axes lean against the room's
   if (room.contains("polygon")) {
     for (const Json& p : room.at("polygon")) {
-      out.polygon.emplace_back(coordinate(p.at(0)) - origin.x(), coordinate(p.at(1)) - origin.y());
+      const Vec3 corner = axes.from_file(Vec3(scan_metres(p.at(0)), scan_metres(p.at(1)), floor));
+      out.polygon.emplace_back(corner.head<2>());
+      middle += corner / static_cast<double>(room.at("polygon").size());
     }
   } else {
     const Json& p = room.at("center");
-    out.inside = Vec3(coordinate(p.at(0)), coordinate(p.at(1)), coordinate(p.at(2))) - origin;
+    out.inside = axes.from_file(Vec3(scan_metres(p.at(0)), scan_metres(p.at(1)), scan_metres(p.at(2))));
+    middle = axes.from_file(Vec3(scan_metres(p.at(0)), scan_metres(p.at(1)), floor));
   }
+  out.floor = middle.z();
+  out.ceiling = middle.z() + height;
   return out;
 }
 
 }  // namespace
 
-std::vector<DescribedRoom> read_described_rooms(const std::filesystem::path& path, const Vec3& origin) {
+std::vector<DescribedRoom> read_described_rooms(const std::filesystem::path& path, const ComparedAxes& axes) {
   const std::string text = read_text_file(path);
   std::vector<DescribedRoom> rooms;
   const auto refuse = [&path](const std::string& what) {
@@ -42,7 +42,7 @@ std::vector<DescribedRoom> read_described_rooms(const std::filesystem::path& pat
   try {
     const Json root = parse_json(text);
     for (const Json& room : root.at("rooms")) {
-      rooms.push_back(described(room, origin));
+      rooms.push_back(described(room, axes));
     }
   } catch (const Json::exception& error) {
     refuse(short_message(error));

@@ -14,7 +14,7 @@ using namespace roomcut;
 StageInfo info() {
   StageInfo stage;
   stage.name = "extract";
-  stage.revision = 3;
+  stage.revision = 4;
   stage.summary = "Turns the labelled cells into a closed model: model.ply, model.obj, summary.json";
   stage.inputs = {{"cells", "90_final/cells.h5", "Cell decomposition"},
                   {"weights", "90_final/weights.h5", "Evidence on the faces"},

@@ -2,9 +2,11 @@
 #include "stages/extract/model_files.h"
 
 #include <map>
+#include <sstream>
 #include <utility>
 
 #include "common/artefact/atomic_file.h"
+#include "common/artefact/frame_crs.h"
 #include "common/geometry/level_turn.h"
 #include "common/mesh/mesh_io.h"
 
@@ -27,16 +29,28 @@ std::vector<Vec3> turned_back(std::vector<Vec3> vertices, const Frame& frame) {
   return vertices;
 }
 
-const std::vector<std::string> kComments = {
-    "roomcut model: metres, z up, normals point out of the empty space",
-    "kind: 0 floor, 1 ceiling, 2 wall; storey: 0 = lowest"};
+/// What a model says of itself, one line each; the coordinate system where the scan names one.
+std::vector<std::string> comments_of(const Frame& frame) {
+  std::vector<std::string> comments = {"roomcut model: metres, z up, normals point out of the empty space"};
+  if (crs_of(frame) == frame.crs) {
+    std::string words;
+    std::istringstream text(frame.crs);
+    for (std::string word; text >> word;) {
+      words += " " + word;
+    }
+    comments.push_back("coordinate system:" + words);
+  }
+  return comments;
+}
 
 }  // namespace
 
 bool write_model_ply(const std::filesystem::path& path, const Model& model, const Frame& frame) {
   TriangleMesh mesh = model.surface.mesh;
   mesh.vertices = turned_back(std::move(mesh.vertices), frame);
-  return write_text_file(path, ply_bytes(mesh, origin_of(frame), kComments));
+  std::vector<std::string> comments = comments_of(frame);
+  comments.emplace_back("kind: 0 floor, 1 ceiling, 2 wall; storey: 0 = lowest");
+  return write_text_file(path, ply_bytes(mesh, origin_of(frame), comments));
 }
 
 bool write_model_obj(const std::filesystem::path& path, const Model& model, const Frame& frame) {
@@ -52,7 +66,7 @@ bool write_model_obj(const std::filesystem::path& path, const Model& model, cons
     sorted.push_back(std::move(group));
   }
   return write_text_file(path, obj_text(turned_back(model.surface.mesh.vertices, frame), sorted,
-                                        origin_of(frame), {kComments.front()}));
+                                        origin_of(frame), comments_of(frame)));
 }
 
 }  // namespace roomcut

@@ -2,31 +2,36 @@
 #include <algorithm>
 #include <numeric>
 
+#include "common/geometry/scan_coordinates.h"
 #include "stages/extract/model_files.h"
 
 namespace roomcut {
 
 namespace {
 
-Json space_json(const Space& space, const Frame& frame) {
-  return {{"floor_z_m", space.floor_z + frame.origin[2]},
-          {"ceiling_z_m", space.ceiling_z + frame.origin[2]},
+/// In the scan's coordinates; heights are those at the space's centre.
+Json space_json(const Space& space, const ScanCoordinates& scan) {
+  const Vec3 floor = scan.to_scan(Vec3(space.centre.x(), space.centre.y(), space.floor_z));
+  return {{"centre_m", {floor.x(), floor.y()}},
+          {"floor_z_m", floor.z()},
+          {"ceiling_z_m", scan.height_to_scan(space.centre, space.ceiling_z)},
           {"height_m", space.height()},
           {"area_m2", space.area_m2},
           {"volume_m3", space.volume_m3},
           {"unobserved_m3", space.unobserved_m3}};
 }
 
-Json opening_json(const ModelOpening& item, const Frame& frame) {
+Json opening_json(const ModelOpening& item, const ScanCoordinates& scan) {
   const Opening& opening = item.opening;
   const Vec2 middle = 0.5 * (opening.jamb_a + opening.jamb_b);
+  const Vec3 sill = scan.to_scan(Vec3(middle.x(), middle.y(), opening.sill_z));
   return {{"opening_id", opening.id},
           {"storey", item.storey},
           {"rooms", {item.room_a, item.room_b}},
-          {"centre_m", {middle.x() + frame.origin[0], middle.y() + frame.origin[1]}},
+          {"centre_m", {sill.x(), sill.y()}},
           {"width_m", opening.width()},
           {"height_m", opening.height()},
-          {"sill_z_m", opening.sill_z + frame.origin[2]},
+          {"sill_z_m", sill.z()},
           {"thickness_m", opening.thickness_m},
           {"volume_m3", item.volume_m3}};
 }
@@ -47,9 +52,10 @@ Json check_json(const Model& model) {
 }  // namespace
 
 Json summary_json(const Model& model, const CellComplex& complex, const Labels& labels) {
+  const ScanCoordinates scan(complex.frame);
   Json storeys = Json::array();
   for (std::size_t i = 0; i < model.storeys.size(); ++i) {
-    Json storey = space_json(model.storeys[i], complex.frame);
+    Json storey = space_json(model.storeys[i], scan);
     storey["storey"] = i;
     storey["rooms"] = std::count_if(model.rooms.begin(), model.rooms.end(),
                                     [i](const Space& room) { return room.storey == static_cast<int>(i); });
@@ -57,16 +63,14 @@ Json summary_json(const Model& model, const CellComplex& complex, const Labels& 
   }
   Json rooms = Json::array();
   for (const Space& space : model.rooms) {
-    Json room = space_json(space, complex.frame);
+    Json room = space_json(space, scan);
     room["room"] = rooms.size();
     room["storey"] = space.storey;
-    room["centre_m"] = {space.centre.x() + complex.frame.origin[0],
-                        space.centre.y() + complex.frame.origin[1]};
     rooms.push_back(std::move(room));
   }
   Json openings = Json::array();
   for (const ModelOpening& opening : model.openings) {
-    openings.push_back(opening_json(opening, complex.frame));
+    openings.push_back(opening_json(opening, scan));
   }
   const double area = std::accumulate(model.storeys.begin(), model.storeys.end(), 0.0,
                                       [](double sum, const Space& storey) { return sum + storey.area_m2; });

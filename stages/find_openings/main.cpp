@@ -13,7 +13,7 @@ using namespace roomcut;
 StageInfo info() {
   StageInfo stage;
   stage.name = "find_openings";
-  stage.revision = 2;
+  stage.revision = 3;
   stage.summary = "Finds doors and other passages in the walls between rooms";
   stage.inputs = {{"cells", "90_final/cells.h5", "Cell complex of the second pass"},
                   {"labels", "90_final/labels.h5", "Its labels"},

@@ -108,10 +108,12 @@ void class_large_tile(const TiledScan& scan, const KeptTile& tile, const UnitSca
 
 }  // namespace
 
-CloudHeader header_of(const TiledScan& scan, const std::vector<Vec3>& stations, const IngestParams& params) {
+CloudHeader header_of(const TiledScan& scan, const std::vector<Vec3>& stations, const std::string& crs,
+                      const IngestParams& params) {
   const UnitScale scale(params.voxel_edge_m);
   CloudHeader header;
   header.frame = scan.frame.frame;
+  header.frame.crs = crs;
   header.points = scan.counts.kept;
   header.tile_edge_m = scale.tile_edge_m();
   header.voxel_edge_m = params.voxel_edge_m;

@@ -3,133 +3,150 @@
 
 #include <algorithm>
 #include <array>
+#include <condition_variable>
 #include <cstring>
+#include <exception>
+#include <mutex>
 #include <system_error>
+#include <thread>
 
 #include "common/errors/codes.h"
-#include "stages/ingest/decoder_process.h"
-#include "stages/ingest/scan_records.h"
-#include "stages/ingest/spooled_bytes.h"
+#include "stages/ingest/decoder_stream.h"
+#include "stages/ingest/scratch_file.h"
 
 namespace roomcut {
 
 namespace {
 
-constexpr std::size_t kCopied = 1 << 20;
-constexpr std::size_t kLongestText = 1 << 16;
-constexpr std::size_t kPointBytes = 3 * sizeof(double);
+constexpr std::uint64_t kPointsPerBlock = 1 << 16;
 
-/// What a decoder said; decoders/point_stream.py describes the records.
-class Stream {
+/// Points that a thread of its own takes from the decoder into a scratch file, while others read the blocks
+/// that are there already.
+class DecodedReader : public ScanReader {
  public:
-  Stream(const ScanFile& file, DecoderProcess& process, SpooledBytes& points)
-      : file_(file), process_(process), points_(points) {}
+  DecodedReader(std::unique_ptr<DecoderStream> stream, const std::filesystem::path& scratch_folder)
+      : stream_(std::move(stream)),
+        point_bytes_(bytes_per_point(stream_->head().form)),
+        said_(stream_->notes().size()),
+        scratch_(scratch_folder) {
+    taking_ = std::thread([this] { take_all(); });
+  }
+  ~DecodedReader() override {
+    stream_->stop();
+    taking_.join();
+  }
+  DecodedReader(const DecodedReader&) = delete;
+  DecodedReader& operator=(const DecodedReader&) = delete;
 
-  /// Reads all records. Errors: the decoder's own, kScanFormat when it does not come to its end.
-  void read() {
-    std::byte kind{};
-    std::uint64_t size = 0;
-    while (!ended_ && process_.read({&kind, 1}) == 1 &&
-           process_.read(std::as_writable_bytes(std::span(&size, 1))) == sizeof size &&
-           take(static_cast<char>(kind), size)) {
+  std::size_t blocks() const override {
+    return static_cast<std::size_t>((stream_->head().most_points + kPointsPerBlock - 1) / kPointsPerBlock);
+  }
+  bool has_normals() const override { return stream_->head().form == PointForm::kWithNormals; }
+  const std::vector<Vec3>& stations() const override { return stream_->stations(); }
+  const std::string& crs() const override { return stream_->crs(); }
+  double resolution(double /*magnitude*/) const override { return 0; }
+
+  /// Waits until the block is there. The last blocks are short or empty where points were dropped.
+  void read(std::size_t index, ScanBlock& block) const override {
+    thread_local std::vector<std::byte> held;
+    const std::uint64_t first = index * kPointsPerBlock * point_bytes_;
+    const std::uint64_t there = wait_for(first + kPointsPerBlock * point_bytes_);
+    held.resize(static_cast<std::size_t>(
+        std::min(kPointsPerBlock * point_bytes_, there > first ? there - first : 0)));
+    if (!held.empty()) {
+      scratch_.read(first, held);
     }
-    if (const std::string how = process_.finish(); !ended_ || !how.empty()) {
-      throw StageError(errors::kScanFormat, file_.name(),
-                       "its decoder did not come to the end; it " + (how.empty() ? "stopped" : how),
-                       "the file is probably damaged: copy or export it again");
+    block.resize(held.size() / point_bytes_, has_normals());
+    if (stream_->head().form == PointForm::kScaled) {
+      scale(held, block);
+    } else {
+      copy(held, block);
     }
   }
 
-  std::vector<Vec3> stations;
-  std::vector<std::string> notes, warnings;
-  DroppedPoints dropped;
+  /// Only here it is known that the decoder came to its end.
+  void check_total(std::uint64_t /*points*/) const override { wait_for(~std::uint64_t{0}); }
+  DroppedPoints dropped() const override { return stream_->dropped(); }
+  std::vector<std::string> late_notes() const override {
+    return {stream_->notes().begin() + static_cast<std::ptrdiff_t>(said_), stream_->notes().end()};
+  }
 
  private:
-  bool take(char kind, std::uint64_t size) {
-    switch (kind) {
-      case 'P':
-        return copy_points(size);
-      case 'S': {
-        std::array<double, 3> place{};
-        stations.emplace_back();
-        const bool whole = numbers(place, size);
-        stations.back() = Vec3(place[0], place[1], place[2]);
-        return whole;
+  void take_all() {
+    std::exception_ptr error;
+    try {
+      stream_->read_points([this](std::span<const std::byte> bytes) {
+        scratch_.write(there_, bytes);
+        const std::scoped_lock lock(mutex_);
+        there_ += bytes.size();
+        more_.notify_all();
+      });
+    } catch (...) {
+      error = std::current_exception();
+    }
+    const std::scoped_lock lock(mutex_);
+    error_ = error;
+    ended_ = true;
+    more_.notify_all();
+  }
+
+  /// Bytes that are there: `wanted` at least, or all. Errors: what ended the decoding.
+  std::uint64_t wait_for(std::uint64_t wanted) const {
+    std::unique_lock lock(mutex_);
+    more_.wait(lock, [&] { return ended_ || there_ >= wanted; });
+    if (error_ && there_ < wanted) {
+      std::rethrow_exception(error_);
+    }
+    return there_;
+  }
+
+  void scale(const std::vector<std::byte>& held, ScanBlock& block) const {
+    const std::array<double*, 3> axes{block.x.data(), block.y.data(), block.z.data()};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double step = stream_->head().scale[axis];
+      const double offset = stream_->head().offset[axis];
+      for (std::size_t i = 0; i < block.size(); ++i) {
+        std::int32_t number = 0;
+        std::memcpy(&number, held.data() + i * point_bytes_ + axis * sizeof number, sizeof number);
+        axes[axis][i] = number * step + offset;
       }
-      case 'D': {
-        std::array<std::uint64_t, 2> counts{};
-        const bool whole = numbers(counts, size);
-        dropped = {counts[0], counts[1]};
-        return whole;
-      }
-      case 'E': {
-        std::array<std::uint64_t, 1> total{};
-        ended_ = numbers(total, size) && total[0] * kPointBytes == points_.size();
-        return ended_;
-      }
-      default:
-        return take_text(kind, size);
     }
   }
 
-  bool copy_points(std::uint64_t size) {
-    buffer_.resize(kCopied);
-    while (size > 0) {
-      const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(size, kCopied));
-      if (process_.read({buffer_.data(), wanted}) < wanted) {
-        return false;
-      }
-      points_.append({buffer_.data(), wanted});
-      size -= wanted;
-    }
-    return true;
-  }
-
-  template <class T, std::size_t kCount>
-  bool numbers(std::array<T, kCount>& values, std::uint64_t size) {
-    return size == sizeof values && process_.read(std::as_writable_bytes(std::span(values))) == sizeof values;
-  }
-
-  bool take_text(char kind, std::uint64_t size) {
-    std::string text(static_cast<std::size_t>(std::min<std::uint64_t>(size, kLongestText)), '\0');
-    if (size > kLongestText || process_.read(std::as_writable_bytes(std::span(text))) < text.size()) {
-      return false;
-    }
-    if (kind == 'X') {
-      fail(text);
-    }
-    (kind == 'N' ? notes : warnings).push_back(text);
-    return kind == 'N' || kind == 'W';
-  }
-
-  [[noreturn]] void fail(const std::string& text) const {
-    const std::size_t first = text.find('\n');
-    const std::size_t second = text.find('\n', first + 1);
-    const std::string code = text.substr(0, first);
-    for (const ErrorCode& known :
-         {errors::kScanUnreadable, errors::kScanTruncated, errors::kScanNoPoints, errors::kScanFormat}) {
-      if (code == known.id || known.id == errors::kScanFormat.id) {
-        throw StageError(known, file_.name(), text.substr(first + 1, second - first - 1),
-                         text.substr(second + 1));
+  void copy(const std::vector<std::byte>& held, ScanBlock& block) const {
+    const std::array<double*, 3> axes{block.x.data(), block.y.data(), block.z.data()};
+    const std::array<float*, 3> normals{block.nx.data(), block.ny.data(), block.nz.data()};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (std::size_t i = 0; i < block.size(); ++i) {
+        const std::byte* point = held.data() + i * point_bytes_;
+        std::memcpy(axes[axis] + i, point + axis * sizeof(double), sizeof(double));
+        if (has_normals()) {
+          std::memcpy(normals[axis] + i, point + 3 * sizeof(double) + axis * sizeof(float), sizeof(float));
+        }
       }
     }
-    throw std::logic_error("the list ends with kScanFormat");
   }
 
-  const ScanFile& file_;
-  DecoderProcess& process_;
-  SpooledBytes& points_;
-  std::vector<std::byte> buffer_;
+  std::unique_ptr<DecoderStream> stream_;
+  std::size_t point_bytes_;
+  std::size_t said_;  ///< of the notes: those before the points
+  ScratchFile scratch_;
+  mutable std::mutex mutex_;
+  mutable std::condition_variable more_;
+  std::uint64_t there_ = 0;  ///< bytes in the scratch file
   bool ended_ = false;
+  std::exception_ptr error_;
+  std::thread taking_;
 };
 
-RecordLayout layout_of(std::uint64_t points) {
-  RecordLayout layout;
-  layout.count = points;
-  for (std::size_t i = 0; i < 3; ++i) {
-    layout.columns[i] = {i * sizeof(double), kPointBytes, ScalarType::kFloat64};
+/// Of a real scan a point takes three bytes at least; a damaged count would keep the decoder busy for ever.
+void check_promise(const ScanFile& file, std::uint64_t points) {
+  if (points / 8 > file.size()) {
+    throw StageError(errors::kScanTruncated, file.name(),
+                     "its headers promise " + std::to_string(points) + " points, more than " +
+                         std::to_string(file.size()) + " bytes can hold",
+                     "copy the scan again; if that does not help, export it again");
   }
-  return layout;
 }
 
 }  // namespace
@@ -151,19 +168,15 @@ std::unique_ptr<ScanReader> open_decoded(const ScanFile& file, const std::string
         "run make deps where the package registry can be reached, or convert the scan to PLY or text, "
         "e.g. with CloudCompare or PDAL");
   }
-  DecoderProcess process(
-      {python.string(), "-Es", program.string(), std::filesystem::absolute(file.path()).string()});
-  const auto points = std::make_shared<SpooledBytes>(file.name(), options.scratch_folder);
-  Stream stream(file, process, *points);
-  stream.read();
-  std::unique_ptr<ScanReader> reader =
-      record_reader(points, layout_of(points->size() / kPointBytes), stream.stations);
-  reader->drop(stream.dropped);
-  for (const std::string& note : stream.notes) {
+  auto stream = std::make_unique<DecoderStream>(
+      file.name(), std::vector<std::string>{python.string(), "-Es", program.string(),
+                                            std::filesystem::absolute(file.path()).string()});
+  stream->read_head();
+  check_promise(file, stream->head().most_points);
+  const std::vector<std::string> notes = stream->notes();
+  auto reader = std::make_unique<DecodedReader>(std::move(stream), options.scratch_folder);
+  for (const std::string& note : notes) {
     reader->note(note);
-  }
-  for (const std::string& warning : stream.warnings) {
-    reader->warn(warning);
   }
   return reader;
 }

@@ -2,6 +2,7 @@
 #include "stages/ingest/decoder_process.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -14,20 +15,28 @@
 #include <cstring>
 #include <system_error>
 
+extern "C" {  // glibc 2.36 declares them for C alone
+#include <sys/pidfd.h>
+}
+
 namespace roomcut {
 
 namespace {
 
 constexpr int kPipeBytes = 1 << 20;
 constexpr std::size_t kErrorTail = 1 << 12;
+constexpr int kLook_ms = 500;  // between two looks whether it was stopped; nothing else depends on it
 
 [[noreturn]] void failed(const char* what) {
   throw std::system_error(errno, std::generic_category(), what);
 }
 
 /// In the new process: only what may be called between fork and exec.
-[[noreturn]] void become(char* const* arguments, int output, int errors) {
+[[noreturn]] void become(char* const* arguments, pid_t parent, int output, int errors) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) {
+    ::_exit(127);  // it ended before it could be watched
+  }
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGXFSZ}) {
     ::signal(number, SIG_DFL);
   }
@@ -55,29 +64,62 @@ DecoderProcess::DecoderProcess(const std::vector<std::string>& command) {
     arguments.push_back(word.data());
   }
   arguments.push_back(nullptr);
+  const pid_t parent = ::getpid();
   process_ = ::fork();
   if (process_ == 0) {
-    become(arguments.data(), ends[1], errors_);
+    become(arguments.data(), parent, ends[1], errors_);
   }
   ::close(ends[1]);
   if (process_ < 0) {
     failed("fork");
+  }
+  handle_ = ::pidfd_open(process_, 0);
+  if (handle_ < 0) {
+    ::kill(process_, SIGKILL);
+    failed("pidfd_open");
   }
 }
 
 DecoderProcess::~DecoderProcess() {
   ::close(output_);
   if (process_ > 0) {
-    ::kill(process_, SIGKILL);
+    stop();
     while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
     }
   }
+  ::close(handle_);
   ::close(errors_);
+}
+
+void DecoderProcess::stop() const {
+  ::pidfd_send_signal(handle_, SIGKILL, nullptr, 0);
+}
+
+bool DecoderProcess::wait_for(int descriptor) const {
+  pollfd waiting{descriptor, POLLIN, 0};
+  int looks = 0;  // Ctrl-Z stops both, and the one may go on a moment before the other
+  while (looks < 2) {
+    const int ready = ::poll(&waiting, 1, kLook_ms);
+    if (ready > 0) {
+      return true;
+    }
+    siginfo_t state{};
+    const bool stopped =
+        ready == 0 &&
+        ::waitid(P_PID, static_cast<id_t>(process_), &state, WSTOPPED | WNOHANG | WNOWAIT) == 0 &&
+        state.si_pid == process_;
+    looks = stopped ? looks + 1 : 0;
+  }
+  return false;
 }
 
 std::size_t DecoderProcess::read(std::span<std::byte> bytes) {
   std::size_t done = 0;
   while (done < bytes.size()) {
+    if (!wait_for(output_)) {
+      stands_still_ = true;
+      break;
+    }
     const ssize_t got = ::read(output_, bytes.data() + done, bytes.size() - done);
     if (got < 0 && errno == EINTR) {
       continue;
@@ -103,11 +145,18 @@ std::string DecoderProcess::last_error_line() const {
 
 std::string DecoderProcess::finish() {
   int status = 0;
+  stands_still_ = stands_still_ || !wait_for(handle_);
+  if (stands_still_) {
+    stop();
+  }
   while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
   }
   process_ = -1;
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
     return "";
+  }
+  if (stands_still_) {
+    return "was stopped by somebody (SIGSTOP)";
   }
   const std::string how = WIFSIGNALED(status) ? "was ended by signal " + std::to_string(WTERMSIG(status))
                                               : "ended with " + std::to_string(WEXITSTATUS(status));

@@ -11,7 +11,7 @@
 namespace roomcut {
 
 /// A program whose standard output is read here; its standard error is kept aside. It ends with this process,
-/// however that ends.
+/// however that ends. All but stop() is for one thread at a time.
 class DecoderProcess {
  public:
   /// Starts command[0] with its arguments. Errors: std::system_error.
@@ -20,18 +20,25 @@ class DecoderProcess {
   DecoderProcess(const DecoderProcess&) = delete;
   DecoderProcess& operator=(const DecoderProcess&) = delete;
 
-  /// Fills `bytes` from its output; returns how many there were, fewer only at its end.
+  /// Fills `bytes` from its output; returns how many there were, fewer only at its end, or when it stands
+  /// still because somebody has stopped it.
   std::size_t read(std::span<std::byte> bytes);
-  /// Waits for its end. Returns "" when it returned 0, otherwise in words how it ended, with the last line of
-  /// its standard error.
+  /// Waits for its end; ends it when it was stopped. Returns "" when it returned 0, otherwise in words how it
+  /// ended, with the last line of its standard error.
   std::string finish();
+  /// Ends it, so that read() comes to its end; from any thread.
+  void stop() const;
 
  private:
+  /// Waits until `descriptor` has something to say. False: the process is stopped.
+  bool wait_for(int descriptor) const;
   std::string last_error_line() const;
 
   pid_t process_ = -1;
+  int handle_ = -1;  ///< pidfd: names the process even when it is gone
   int output_ = -1;
   int errors_ = -1;
+  bool stands_still_ = false;
 };
 
 }  // namespace roomcut

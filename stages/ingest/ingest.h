@@ -59,7 +59,8 @@ TiledScan tile_scan(const ScanReader& reader, const ScanSettings& settings, cons
                     const Advance& advance = {});
 
 /// The cloud's header as far as the first pass knows it; noise, density and box are left at 0.
-CloudHeader header_of(const TiledScan& scan, const std::vector<Vec3>& stations, const IngestParams& params);
+CloudHeader header_of(const TiledScan& scan, const std::vector<Vec3>& stations, const std::string& crs,
+                      const IngestParams& params);
 
 /// What the second pass finds out on its way.
 struct SurfaceSummary {

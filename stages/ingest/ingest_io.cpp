@@ -150,7 +150,7 @@ MadeCloud make_cloud(StageRun& run, const ScanReader& reader, const ScanSettings
   cloud.scan = tile_scan(reader, settings, params, [&](std::uint64_t blocks) { reading.advance(blocks); });
   run.set_input_digest("scan", digest.get());
   cloud.writer = std::make_unique<CloudWriter>(run.output("cloud"), run.provenance(),
-                                               header_of(cloud.scan, stations, params));
+                                               header_of(cloud.scan, stations, reader.crs(), params));
   Progress classing = run.progress("classing points", cloud.scan.counts.kept);
   cloud.summary = class_tiles(
       cloud.scan, params,
@@ -217,6 +217,9 @@ void run_ingest(StageRun& run, const IngestParams& params) {
   settings.scratch_folder = folder;
   settings.name = run.input("scan").string();
   MadeCloud cloud = make_cloud(run, *reader, settings, params, stations, digest);
+  for (const std::string& note : reader->late_notes()) {
+    run.note(note);
+  }
   const Lean lean = lean_of(cloud.summary.estimates.lean);
   if (wants_levelling(run, lean)) {
     cloud = {};  // what was written is not published

@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kNearOrigin_m = 1000;  // float32 has a spacing of 0.06 mm there
 constexpr double kOriginStep_m = 100;
-constexpr double kLargest_m = 1e9;  // beyond it a coordinate is a ghost in any frame
+constexpr double kLevelledStep_m = 1;  // the plan of a levelled scan is that at the height of its origin
+constexpr double kLargest_m = 1e9;     // beyond it a coordinate is a ghost in any frame
 
 struct Axes {
   std::array<int, 3> axis;
@@ -119,8 +120,10 @@ ScanFrame choose_frame(const ScanBlock& sample, const std::string& unit, const s
   const double tile = UnitScale(voxel_edge_m).tile_edge_m();
   for (int k = 0; k < 3; ++k) {
     const auto axis = static_cast<std::size_t>(k);
-    if (std::abs(middle[k]) >= kNearOrigin_m) {
-      result.frame.origin[axis] = std::round(middle[k] / kOriginStep_m) * kOriginStep_m;
+    const bool levelled = result.frame.levelled();
+    if (levelled || std::abs(middle[k]) >= kNearOrigin_m) {
+      const double step = levelled ? kLevelledStep_m : kOriginStep_m;
+      result.frame.origin[axis] = std::round(middle[k] / step) * step;
     }
   }
   const Vec3 origin(result.frame.origin[0], result.frame.origin[1], result.frame.origin[2]);

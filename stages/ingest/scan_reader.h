@@ -58,14 +58,19 @@ class ScanReader {
   /// How the file was understood.
   const std::vector<std::string>& notes() const { return notes_; }
   void note(const std::string& text) { notes_.push_back(text); }
-  /// What is in no block although it stands in the file.
-  const DroppedPoints& dropped() const { return dropped_; }
-  void drop(const DroppedPoints& points) { dropped_ = points; }
+  /// The coordinate system as the file states it, WKT or a name; empty when it does not.
+  virtual const std::string& crs() const {
+    static const std::string kNone;
+    return kNone;
+  }
+  /// After check_total(): what is in no block although it stands in the file.
+  virtual DroppedPoints dropped() const { return {}; }
+  /// After check_total(): notes that could not be given before all points were read.
+  virtual std::vector<std::string> late_notes() const { return {}; }
 
  private:
   std::vector<std::string> warnings_;
   std::vector<std::string> notes_;
-  DroppedPoints dropped_;
 };
 
 /// Finds out the format by the content. Errors: those of ScanFile, kScanFormat, kScanTruncated (the header

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -84,28 +85,28 @@ std::vector<BlockCounts> sort_blocks(const ScanReader& reader, const ScanFrame& 
     return Sorting{{}, {}, TileSorter(frame, scale, params)};
   });
   FirstError error;
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, reader.blocks(), 1),
-      [&](const tbb::blocked_range<std::size_t>& range) {
-        for (std::size_t i = range.begin(); i < range.end() && !error.before(i); ++i) {
-          try {
-            Sorting& own = per_thread.local();
-            read_block(reader, i, own.block);
-            to_local(own.block, frame, scale, own.local);
-            SortedBlock sorted;
-            own.sorter.sort(own.local, sorted);
-            counts[i] = {own.block.size() + own.block.no_returns, own.block.no_returns, own.local.not_finite,
-                         own.local.far};
-            store.put(i, std::move(sorted));
-            if (advance) {
-              advance(1);
-            }
-          } catch (...) {
-            error.note(i);
-          }
+  // In file order, so that what a decoder has just given is still in memory.
+  std::atomic<std::size_t> next{0};
+  const auto sort_next = [&](int /*worker*/) {
+    for (std::size_t i = next++; i < reader.blocks() && !error.before(i); i = next++) {
+      try {
+        Sorting& own = per_thread.local();
+        read_block(reader, i, own.block);
+        to_local(own.block, frame, scale, own.local);
+        SortedBlock sorted;
+        own.sorter.sort(own.local, sorted);
+        counts[i] = {own.block.size() + own.block.no_returns, own.block.no_returns, own.local.not_finite,
+                     own.local.far};
+        store.put(i, std::move(sorted));
+        if (advance) {
+          advance(1);
         }
-      },
-      tbb::simple_partitioner());
+      } catch (...) {
+        error.note(i);
+      }
+    }
+  };
+  tbb::parallel_for(0, tbb::this_task_arena::max_concurrency(), sort_next, tbb::simple_partitioner());
   error.rethrow();
   return counts;
 }
@@ -201,9 +202,10 @@ TiledScan tile_scan(const ScanReader& reader, const ScanSettings& settings, cons
     far += block.far;
   }
   reader.check_total(counts.read);
-  counts.no_returns += reader.dropped().no_returns;
-  counts.invalid = reader.dropped().invalid;
-  counts.read += reader.dropped().no_returns + counts.invalid;
+  const DroppedPoints dropped = reader.dropped();
+  counts.no_returns += dropped.no_returns;
+  counts.invalid = dropped.invalid;
+  counts.read += dropped.no_returns + dropped.invalid;
   const std::uint64_t real = counts.read - counts.no_returns - counts.invalid - counts.not_finite;
   if (real == 0) {
     throw StageError(errors::kScanNoPoints, settings.name,

@@ -15,7 +15,7 @@ using namespace roomcut;
 StageInfo info() {
   StageInfo stage;
   stage.name = "refine_lines";
-  stage.revision = 7;
+  stage.revision = 8;
   stage.summary = "Refines the wall lines that carry a wall in the first cut, on raw points";
   stage.inputs = {{"lines", "40_accept_lines/wall_lines.geojson", "Accepted wall lines"},
                   {"cells", "50_partition/cells.h5", "Cell complex of the first pass"},

@@ -44,7 +44,7 @@ int main(int argc, char** argv) {
   ReportParams params;
   StageInfo info;
   info.name = "report";
-  info.revision = 4;
+  info.revision = 5;
   info.summary = "Draws every stage whose artefacts are there, and a page that shows them all.";
   info.inputs = report_inputs();
   info.outputs = {{"report", "report.html", "the page; the pictures go to the folder pictures/ beside it"}};

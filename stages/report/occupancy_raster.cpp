@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/picture/svg.h"
+
 namespace roomcut {
 
 GridRaster occupancy_raster(const Slices& slices, std::size_t slice) {
@@ -23,18 +25,25 @@ GridRaster occupancy_raster(const Slices& slices, std::size_t slice) {
   return raster;
 }
 
-std::string world_file(const GridRaster& raster, double cell_m) {
-  char text[200];
-  std::snprintf(text, sizeof text, "%.12g\n0\n0\n%.12g\n%.9f\n%.9f\n", cell_m, -cell_m,
-                raster.low.x() + 0.5 * cell_m, raster.high.y() - 0.5 * cell_m);
+RasterPlace place_of(const GridRaster& raster, double cell_m, const Frame& frame) {
+  const ScanCoordinates scan(frame);
+  return {scan.plan_to_scan({raster.low.x(), raster.high.y()}), scan.plan_turn() * Vec2(cell_m, 0),
+          scan.plan_turn() * Vec2(0, -cell_m)};
+}
+
+std::string world_file(const RasterPlace& place) {
+  const Vec2 middle = place.corner + 0.5 * (place.right + place.down);  // of the upper left pixel
+  char text[300];
+  std::snprintf(text, sizeof text, "%.12g\n%.12g\n%.12g\n%.12g\n%.9f\n%.9f\n", place.right.x(),
+                place.right.y(), place.down.x(), place.down.y(), middle.x(), middle.y());
   return text;
 }
 
-std::string aux_file(const GridRaster& raster, double cell_m, const std::string& crs) {
-  char numbers[200];
-  std::snprintf(numbers, sizeof numbers, "%.9f, %.12g, 0, %.9f, 0, %.12g", raster.low.x(), cell_m,
-                raster.high.y(), -cell_m);
-  return "<PAMDataset>\n  <SRS>" + crs + "</SRS>\n  <GeoTransform>" + numbers +
+std::string aux_file(const RasterPlace& place, const std::string& crs) {
+  char numbers[300];
+  std::snprintf(numbers, sizeof numbers, "%.9f, %.12g, %.12g, %.9f, %.12g, %.12g", place.corner.x(),
+                place.right.x(), place.down.x(), place.corner.y(), place.right.y(), place.down.y());
+  return "<PAMDataset>\n  <SRS>" + escaped(crs) + "</SRS>\n  <GeoTransform>" + numbers +
          "</GeoTransform>\n</PAMDataset>\n";
 }
 

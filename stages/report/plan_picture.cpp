@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <vector>
 
+#include "common/geometry/scan_coordinates.h"
+
 namespace roomcut {
 
 namespace {
@@ -49,7 +51,9 @@ void draw_edges(Svg& svg, const CellComplex& complex, const Labels* labels, std:
 
 std::string heights_of(const CellComplex& complex, std::size_t layer) {
   char text[80];
-  std::snprintf(text, sizeof text, "%.2f m to %.2f m", complex.levels[layer], complex.levels[layer + 1]);
+  const ScanCoordinates scan(complex.frame);
+  std::snprintf(text, sizeof text, "%.2f m to %.2f m", scan.caption_height(complex.levels[layer]),
+                scan.caption_height(complex.levels[layer + 1]));
   return text;
 }
 

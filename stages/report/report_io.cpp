@@ -7,7 +7,7 @@
 #include <iterator>
 #include <utility>
 
-#include "common/artefact/local_crs.h"
+#include "common/artefact/frame_crs.h"
 #include "common/slices/slices_io.h"
 #include "stages/report/occupancy_raster.h"
 #include "stages/report/stage_drawings.h"
@@ -77,12 +77,17 @@ std::vector<Picture> draw_pictures(const StageRun& run, const ReportParams& para
 std::vector<Picture> draw_layers(const StageRun& run) {
   std::vector<Picture> files;
   const Slices slices = read_slices(run.input("slices"));
+  const std::string crs = crs_of(slices.frame);
   for (std::size_t k = 0; k < slices.wall_slices.size(); ++k) {
     const GridRaster raster = occupancy_raster(slices, k);
+    const RasterPlace place = place_of(raster, slices.tau_m, slices.frame);
     const std::string name = "slice_" + std::to_string(k);
     const auto png = encode_png(raster.image, PngPixels::kRgb);
-    files.push_back({"slice", name + ".pgw", "", "", world_file(raster, slices.tau_m)});
-    files.push_back({"slice", name + ".png.aux.xml", "", "", aux_file(raster, slices.tau_m, kLocalCrs)});
+    files.push_back({"slice", name + ".pgw", "", "", world_file(place)});
+    files.push_back({"slice", name + ".png.aux.xml", "", "", aux_file(place, crs)});
+    if (crs == slices.frame.crs && crs.find('[') != std::string::npos) {
+      files.push_back({"slice", name + ".prj", "", "", crs + "\n"});
+    }
     files.push_back({"slice", name + ".png", "", "", {png.begin(), png.end()}});
   }
   return files;

@@ -23,6 +23,7 @@ std::string metres(double value) {
 }  // namespace
 
 Picture draw_histogram(const Slices& slices) {
+  const ScanCoordinates scan(slices.frame);
   const VerticalHistogram& histogram = slices.histogram;
   const double top = histogram.z0 + histogram.bin_m * static_cast<double>(histogram.area_m2.size());
   const double most = std::max(1e-9, *std::max_element(histogram.area_m2.begin(), histogram.area_m2.end()));
@@ -47,7 +48,8 @@ Picture draw_histogram(const Slices& slices) {
     const double at = std::max(level.z, last_label + 0.025 * height);  // labels of close peaks do not overlap
     last_label = at;
     char text[80];
-    std::snprintf(text, sizeof text, level.cap ? "%.3f m, cap" : "%.3f m, %.0f m²", level.z, level.area_m2);
+    std::snprintf(text, sizeof text, level.cap ? "%.3f m, cap" : "%.3f m, %.0f m²",
+                  scan.caption_height(level.z), level.area_m2);
     svg.text({width + 0.01 * height, at - 0.008 * height}, text, 12, kPeak);
   }
   svg.text({0, histogram.z0 - 0.025 * height},
@@ -59,6 +61,7 @@ Picture draw_histogram(const Slices& slices) {
 }
 
 Picture draw_occupancy(const Slices& slices, std::size_t slice, const std::vector<WallLine>& lines) {
+  const ScanCoordinates scan(slices.frame);
   const GridRaster grid = occupancy_raster(slices, slice);
   const double scale = std::min(60.0, 1000 / (grid.high - grid.low).maxCoeff());
   Svg svg(grid.low, grid.high, scale);
@@ -69,8 +72,8 @@ Picture draw_occupancy(const Slices& slices, std::size_t slice, const std::vecto
   }
   return {
       "detect_lines", "detect_lines_" + std::to_string(slice) + ".svg",
-      "Wall slice " + std::to_string(slice) + ": " + metres(slices.levels[slice].z) + " to " +
-          metres(slices.levels[slice + 1].z),
+      "Wall slice " + std::to_string(slice) + ": " + metres(scan.caption_height(slices.levels[slice].z)) +
+          " to " + metres(scan.caption_height(slices.levels[slice + 1].z)),
       "Grey: occupied cells, darker where more of the height is covered. Coloured: wall lines of all slices.",
       svg.str()};
 }

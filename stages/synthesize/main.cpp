@@ -16,6 +16,12 @@ void override_scene(const SynthesizeParams& params, Scene& scene) {
   if (params.noise_m) scene.noise_m = *params.noise_m;
 }
 
+/// The Python environment and the encoders lie beside the folder of the programs.
+std::filesystem::path build_folder() {
+  std::error_code unknown;
+  return std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path().parent_path();
+}
+
 void run(StageRun& stage, const SynthesizeParams& params) {
   Scene scene = read_scene(stage.input("scene"));
   override_scene(params, scene);
@@ -25,8 +31,9 @@ void run(StageRun& stage, const SynthesizeParams& params) {
   const Surfaces surfaces(scene, building, truth);
   const auto source = make_source(scene, building, surfaces);
   Progress progress = stage.progress("points", source->expected_points());
-  const std::uint64_t points = write_scan(stage.output("scan-out"), scene, *source, stage.threads(),
-                                          [&](std::uint64_t amount) { progress.advance(amount); });
+  const std::uint64_t points = write_scan(
+      stage.output("scan-out"), scene, *source, {stage.option("e57") == "spherical", build_folder()},
+      stage.threads(), [&](std::uint64_t amount) { progress.advance(amount); });
   write_truth(stage.output("truth-out"), scene, building, truth);
   write_json_artefact(stage.output("truth-json"), artefacts::kScene, stage.provenance(), Frame{},
                       truth_json(scene, building, truth, points));
@@ -45,9 +52,11 @@ int main(int argc, char** argv) {
   info.summary =
       "Makes a building from a short JSON file: a scan with noise, and its exact, closed truth mesh.";
   info.inputs = {{"scene", "", "scene file (schemas/scene.md)"}};
-  info.outputs = {{"scan-out", "scan.ply", "the scan: binary PLY"},
-                  {"truth-out", "truth.off", "the truth: closed triangle mesh, normals into the wall"},
-                  {"truth-json", "truth.json", "rooms, walls, openings, scanner positions"}};
+  info.outputs = {
+      {"scan-out", "scan.ply", "the scan, in the format of its name: .ply, .ptx, .e57, .las, .laz"},
+      {"truth-out", "truth.off", "the truth: closed triangle mesh, normals into the wall"},
+      {"truth-json", "truth.json", "rooms, walls, openings, scanner positions"}};
+  info.options = {{"e57", "cartesian", "how an E57 file holds its points", {"cartesian", "spherical"}}};
   SynthesizeParams params;
   ParameterTable table = {
       auto_number("points", params.points, "1", 1, 1e10, "Number of points; auto: as the scene says."),

@@ -3,69 +3,58 @@
 
 #include <tbb/parallel_pipeline.h>
 
-#include <charconv>
-#include <cstdio>
 #include <memory>
 #include <string>
 
-#include "common/artefact/atomic_file.h"
-#include "common/errors/codes.h"
+#include "stages/synthesize/output_file.h"
 
 namespace roomcut {
 
 namespace {
 
-/// A file that is written from front to back, and whose header may be written again.
-class OutputFile {
- public:
-  explicit OutputFile(const std::filesystem::path& path)
-      : file_(path), stream_(std::fopen(file_.temporary_path().c_str(), "wb"), &std::fclose) {
-    check(stream_ != nullptr);
-  }
-  void write(const void* data, std::size_t bytes) {
-    check(std::fwrite(data, 1, bytes, stream_.get()) == bytes);
-  }
-  void rewind() { check(std::fseek(stream_.get(), 0, SEEK_SET) == 0); }
-  void commit() {
-    check(std::fclose(stream_.release()) == 0);
-    file_.commit();
-  }
-
- private:
-  void check(bool good) const {
-    if (!good)
-      throw StageError(errors::kCannotWrite, file_.final_path().string(), "cannot be written",
-                       "is the disk full?");
-  }
-  AtomicFile file_;
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream_;
+/// The points of one block.
+struct Block {
+  std::uint64_t number;
+  std::vector<float> xyz;
 };
 
-std::string shortest(double value) {
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
-  return {text, end};
-}
+/// Hands blocks to the writer in their order, and says where a set-up begins.
+class BlockSink {
+ public:
+  BlockSink(ScanWriter& writer, const Scene& scene, const PointSource& source)
+      : writer_(writer), scene_(scene), source_(source) {}
+  void take(const Block& block) {
+    const SetUp set_up = source_.set_up(block.number);
+    if (next_ <= set_up.number) {
+      next_ = set_up.number + 1;
+      begin(set_up);
+    }
+    writer_.add(block.xyz);
+    points_ += block.xyz.size() / 3;
+  }
+  std::uint64_t points() const { return points_; }
 
-/// Always of the same length for one scene: the number of points is known only at the end.
-std::string ply_header(const Scene& scene, std::uint64_t points) {
-  const std::string count = std::to_string(points);
-  return "ply\nformat binary_little_endian 1.0\ncomment synthetic scan of scene " + scene.name + ", noise " +
-         shortest(scene.noise_m) + " m, seed " + std::to_string(scene.seed) +
-         std::string(20 - count.size(), ' ') + "\nelement vertex " + count +
-         "\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
-}
+ private:
+  void begin(const SetUp& set_up) {
+    if (!set_up.station) return writer_.begin(nullptr);
+    const ScannerPose pose = pose_of(scene_, set_up.number, *set_up.station);
+    writer_.begin(&pose);
+  }
+  ScanWriter& writer_;
+  const Scene& scene_;
+  const PointSource& source_;
+  std::uint64_t next_ = 0, points_ = 0;
+};
 
 }  // namespace
 
 std::uint64_t write_scan(const std::filesystem::path& path, const Scene& scene, const PointSource& source,
-                         int threads, const std::function<void(std::uint64_t)>& progress) {
-  OutputFile file(path);
-  const std::string header = ply_header(scene, 0);
-  file.write(header.data(), header.size());
+                         const ScanFormat& format, int threads,
+                         const std::function<void(std::uint64_t)>& progress) {
+  const std::unique_ptr<ScanWriter> writer = make_scan_writer(path, scene, format);
+  BlockSink sink(*writer, scene, source);
   std::uint64_t next = 0;
-  std::uint64_t points = 0;
-  using Block = std::shared_ptr<std::vector<float>>;
+  using Made = std::shared_ptr<Block>;
   tbb::parallel_pipeline(
       static_cast<std::size_t>(threads) * 3,
       tbb::make_filter<void, std::uint64_t>(tbb::filter_mode::serial_in_order,
@@ -74,23 +63,20 @@ std::uint64_t write_scan(const std::filesystem::path& path, const Scene& scene, 
                                               control.stop();
                                               return 0;
                                             }) &
-          tbb::make_filter<std::uint64_t, Block>(tbb::filter_mode::parallel,
-                                                 [&](std::uint64_t block) {
-                                                   auto xyz = std::make_shared<std::vector<float>>();
-                                                   xyz->reserve(3 << 16);
-                                                   source.make(block, *xyz);
-                                                   return xyz;
-                                                 }) &
-          tbb::make_filter<Block, void>(tbb::filter_mode::serial_in_order, [&](const Block& xyz) {
-            file.write(xyz->data(), xyz->size() * sizeof(float));
-            points += xyz->size() / 3;
-            progress(xyz->size() / 3);
+          tbb::make_filter<std::uint64_t, Made>(tbb::filter_mode::parallel,
+                                                [&](std::uint64_t number) {
+                                                  auto block = std::make_shared<Block>();
+                                                  block->number = number;
+                                                  block->xyz.reserve(3 << 16);
+                                                  source.make(number, block->xyz);
+                                                  return block;
+                                                }) &
+          tbb::make_filter<Made, void>(tbb::filter_mode::serial_in_order, [&](const Made& block) {
+            sink.take(*block);
+            progress(block->xyz.size() / 3);
           }));
-  file.rewind();
-  const std::string complete = ply_header(scene, points);
-  file.write(complete.data(), complete.size());
-  file.commit();
-  return points;
+  writer->finish();
+  return sink.points();
 }
 
 void write_truth(const std::filesystem::path& path, const Scene& scene, const Building& building,
@@ -100,7 +86,7 @@ void write_truth(const std::filesystem::path& path, const Scene& scene, const Bu
   std::string text = "OFF\n" + std::to_string(truth.vertices.size() * n) + " " +
                      std::to_string(truth.triangles.size() * n) + " 0\n";
   const auto flush = [&] {
-    file.write(text.data(), text.size());
+    file.write(text);
     text.clear();
   };
   for (std::uint64_t copy = 0; copy < n; ++copy) {

@@ -6,16 +6,17 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "stages/synthesize/sample.h"
+#include "stages/synthesize/scan_writer.h"
 #include "stages/synthesize/truth.h"
 
 namespace roomcut {
 
-/// Writes the scan as binary little-endian PLY (float x, y, z) while it is made: blocks are made in parallel
+/// Writes the scan in the format of its name (scan_writer.h) while it is made: blocks are made in parallel
 /// and written in order, a few of them in memory at a time. Returns the number of points. Throws
-/// StageError(kCannotWrite).
+/// StageError(kCannotWrite), and what make_scan_writer() throws.
 std::uint64_t write_scan(const std::filesystem::path& path, const Scene& scene, const PointSource& source,
-                         int threads, const std::function<void(std::uint64_t)>& progress);
+                         const ScanFormat& format, int threads,
+                         const std::function<void(std::uint64_t)>& progress);
 
 /// Writes the truth with all copies of the building as OFF. Throws StageError(kCannotWrite).
 void write_truth(const std::filesystem::path& path, const Scene& scene, const Building& building,

@@ -66,6 +66,12 @@ double TripodSource::return_share() const {
   return static_cast<double>(returned) / static_cast<double>(rays);
 }
 
+SetUp TripodSource::set_up(std::uint64_t block) const {
+  const std::uint64_t scan = block / blocks_per_station_;
+  const std::size_t stations = building_.stations.size();
+  return {scan, building_.stations[scan % stations] + copy_offset(scene_, building_, scan / stations)};
+}
+
 void TripodSource::make(std::uint64_t block, std::vector<float>& xyz) const {
   const std::uint64_t scan = block / blocks_per_station_;
   const Vec3& station = building_.stations[scan % building_.stations.size()];

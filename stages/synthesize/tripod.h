@@ -20,6 +20,7 @@ class TripodSource : public PointSource {
     return copies(scene_) * building_.stations.size() * blocks_per_station_;
   }
   std::uint64_t expected_points() const override { return expected_; }
+  SetUp set_up(std::uint64_t block) const override;
   void make(std::uint64_t block, std::vector<float>& xyz) const override;
   double angular_step() const { return step_; }  ///< [rad]
 

@@ -13,6 +13,7 @@ class UniformSource : public PointSource {
   UniformSource(const Scene& scene, const Building& building, const Surfaces& surfaces);
   std::uint64_t blocks() const override;
   std::uint64_t expected_points() const override { return points_; }
+  SetUp set_up(std::uint64_t /*block*/) const override { return {}; }
   void make(std::uint64_t block, std::vector<float>& xyz) const override;
 
  private:

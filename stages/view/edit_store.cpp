@@ -44,7 +44,8 @@ AcceptedEdit EditStore::accept(const std::string& text) {
   try {
     const WallLinesFile lines = read_edited_wall_lines(file.temporary_path(), detected.content);
     const LineDifferences changes = compare_lines(detected.content.lines, lines.content.lines);
-    result.changes = describe_changes(changes, detected.content.lines, lines.content.lines);
+    result.changes =
+        describe_changes(changes, detected.content.lines, lines.content.lines, detected.content.frame);
     result.warnings = lines.warnings;
     if (!lines.content.base_sha256.empty() && lines.content.base_sha256 != detected.payload_sha256) {
       result.warnings.emplace_back("the lines were detected anew since this edit began");

@@ -117,9 +117,8 @@ def truth_pieces(path):
 
 
 class RefinedLine:
-    def __init__(self, feature, origin):
-        (ax, ay), (bx, by) = feature["geometry"]["coordinates"]
-        self.a, self.b = (ax + origin[0], ay + origin[1]), (bx + origin[0], by + origin[1])
+    def __init__(self, feature):
+        self.a, self.b = (ax, ay), (bx, by) = [tuple(point) for point in feature["geometry"]["coordinates"]]
         self.length = math.hypot(bx - ax, by - ay)
         self.u = ((bx - ax) / self.length, (by - ay) / self.length)
         self.n = (self.u[1], -self.u[0])
@@ -250,9 +249,8 @@ def measure(folder, build, family, seed, row):
         truth = json.load(text)
     with open(os.path.join(work, "80_refine_lines", "wall_lines.geojson"), encoding="utf-8") as text:
         lines = json.load(text)
-    origin = lines["roomcut"]["frame"]["origin"]
     pieces = truth_pieces(os.path.join(folder, "truth.off"))
-    found = [compare_line(RefinedLine(feature, origin), pieces) for feature in lines["features"]]
+    found = [compare_line(RefinedLine(feature), pieces) for feature in lines["features"]]
     vertex, faces = read_model(os.path.join(work, "model.ply"))
     walls = []
     slices = {}

@@ -21,6 +21,7 @@ except ImportError:
 ogr.UseExceptions()
 SOURCE, BIN = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
 DETECTED = os.path.join(SOURCE, "tests/compat/wall_lines_v1.0.geojson")
+X, Y = 85123.5, 447001.25  # its origin: edits are in the scan's own coordinates
 
 
 class GdalEdit(unittest.TestCase):
@@ -60,14 +61,14 @@ class GdalEdit(unittest.TestCase):
         for feature in layer:
             if feature.GetField("wall_id") == "w0005":
                 line = ogr.Geometry(ogr.wkbLineString)
-                line.AddPoint_2D(-0.25, -3)
-                line.AddPoint_2D(-0.25, 3)
+                line.AddPoint_2D(X - 0.25, Y - 3)
+                line.AddPoint_2D(X - 0.25, Y + 3)
                 feature.SetGeometry(line)
                 layer.SetFeature(feature)
             elif feature.GetField("wall_id") == "w0006":
                 layer.DeleteFeature(feature.GetFID())
         drawn = ogr.Feature(layer.GetLayerDefn())
-        drawn.SetGeometry(ogr.CreateGeometryFromWkt("LINESTRING (1 -2.123456789012345, 3 -2.123456789012345)"))
+        drawn.SetGeometry(ogr.CreateGeometryFromWkt(f"LINESTRING ({X + 1} {Y - 2.123456789}, {X + 3} {Y - 2.123456789})"))
         layer.CreateFeature(drawn)
         del drawn, feature, layer
         source = None  # saves
@@ -80,11 +81,11 @@ class GdalEdit(unittest.TestCase):
         accepted = self.accept()
         lines = self.by_id(accepted)
         self.assertEqual(lines["w0005"]["properties"]["source"], "edited")
-        self.assertEqual(lines["w0005"]["geometry"]["coordinates"], [[-0.25, -3], [-0.25, 3]])
+        self.assertEqual(lines["w0005"]["geometry"]["coordinates"], [[X - 0.25, Y - 3], [X - 0.25, Y + 3]])
         self.assertNotIn("w0006", lines)
         new = lines["e0002"]
         self.assertEqual(new["properties"]["source"], "added")
-        self.assertEqual(new["geometry"]["coordinates"][0], [1, -2.123457])
+        self.assertEqual(new["geometry"]["coordinates"][0], [X + 1, round(Y - 2.123457, 6)])
         self.assertEqual(lines["w0001"]["properties"]["source"], "detected")
         self.assertEqual(lines["w0007"]["properties"]["colour"], "red")
         self.assertTrue(lines["w0007"]["properties"]["locked"])

@@ -6,10 +6,13 @@ import json
 import math
 import os
 import re
+import shutil
+import signal
 import struct
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 SOURCE, BUILD = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
@@ -30,23 +33,35 @@ INGEST = os.path.join(BUILD, "bin", "ingest")
 
 
 def decode(path):
-    """What a decoder streams, taken apart as decoders/point_stream.py describes it: points, stations, counts, error."""
+    """What a decoder streams, taken apart as decoders/point_stream.py describes it: points, stations, counts, error; the texts in `said`."""
     name = "e57" if path.endswith(".e57") else "las"
     done = subprocess.run([PYTHON, "-Es", os.path.join(BUILD, "decoders", name + ".py"), path], capture_output=True, check=False)
-    points, stations, dropped, error, at = [], [], None, None, 0
+    parts, stations, dropped, error, at = [], [], None, None, 0
+    form, scale, offset = 0, 1, 0
+    said.clear()
     while at < len(done.stdout):
         kind, size = done.stdout[at:at + 1], struct.unpack_from("<Q", done.stdout, at + 1)[0]
         payload = done.stdout[at + 9:at + 9 + size]
         at += 9 + size
-        if kind == b"P":
-            points.append(numpy.frombuffer(payload).reshape(-1, 3))
+        if kind == b"B":
+            _, form, *numbers = struct.unpack("<2Q6d", payload)
+            scale, offset = numpy.array(numbers[:3]), numpy.array(numbers[3:])
+        elif kind == b"P":
+            parts.append(numpy.frombuffer(payload, [("point", "<i4" if form == 1 else "<f8", 3), ("normal", "<f4", 3 * (form == 2))]))
         elif kind == b"S":
             stations.append(struct.unpack("<3d", payload))
         elif kind == b"D":
             dropped = struct.unpack("<2Q", payload)
         elif kind == b"X":
             error = payload.decode()
-    return (numpy.concatenate(points) if points else numpy.empty((0, 3))), stations, dropped, error
+        elif kind in b"NC":
+            said.setdefault(kind, []).append(payload.decode())
+    points = numpy.concatenate([part["point"] for part in parts]) if parts else numpy.empty((0, 3))
+    said["normals"] = numpy.concatenate([part["normal"] for part in parts]) if parts else None
+    return (points * scale + offset if form == 1 else points), stations, dropped, error
+
+
+said = {}
 
 
 def ingest(path, work, *options):
@@ -56,6 +71,19 @@ def ingest(path, work, *options):
 def counts(work):
     with open(os.path.join(work, "logs", "ingest.json"), encoding="utf-8") as text:
         return {count["what"]: count["value"] for count in json.load(text)["counts"]}
+
+
+def gone(process):
+    """Whether it ends within ten seconds."""
+    for _ in range(100):
+        try:
+            with open(f"/proc/{process}/stat", encoding="utf-8", errors="replace") as file:
+                if file.read().rsplit(")", 1)[1].split()[0] == "Z":
+                    return True
+        except OSError:
+            return True
+        time.sleep(0.1)
+    return False
 
 
 def turn(angle, axis):
@@ -93,6 +121,10 @@ def write_e57(path, scans):
             columns = dict(zip(("cartesianX", "cartesianY", "cartesianZ"), local.T))
         node = libe57.StructureNode(image)
         node.set("guid", libe57.StringNode(image, f"{{scan {number}}}"))
+        if "normals" in scan:
+            if number == 0:  # once in a file
+                image.extensionsAdd("nor", "http://www.libe57.org/E57_NOR_surface_normals.txt")
+            columns |= dict(zip(("nor:normalX", "nor:normalY", "nor:normalZ"), scan["normals"].T))
         pose = libe57.StructureNode(image)
         for member, names in (("rotation", "wxyz"), ("translation", "xyz")):
             if member in scan:
@@ -205,6 +237,43 @@ class Decoders(unittest.TestCase):
                     wanted = numpy.stack((las.X * 0.0001 + 691000, las.Y * 0.0001 + 5334000, las.Z * 0.0001), axis=1)[~withheld]
                     numpy.testing.assert_array_equal(points, wanted)
 
+    def test_coordinate_system_and_set_ups_of_las_are_said_and_kept(self):
+        wkt = 'PROJCS["ETRS89 / UTM zone 32N",GEOGCS["ETRS89"],UNIT["metre",1],AUTHORITY["EPSG","25832"]]'
+        keys = struct.pack("<12H", 1, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, 25832)
+        for name, record, wanted in (("wkt", laspy.VLR("LASF_Projection", 2112, "", wkt.encode() + b"\0"), wkt),
+                                     ("keys", laspy.VLR("LASF_Projection", 34735, "", keys), "EPSG:25832"), ("none", None, None)):
+            with self.subTest(crs=name):
+                las = laspy.LasData(laspy.LasHeader(version="1.4", point_format=6))
+                las.header.scales = [0.001] * 3
+                if record:
+                    las.header.vlrs.append(record)
+                las.x, las.y, las.z = room().T
+                las.point_source_id = numpy.arange(20000) % 3 + 7 if name == "wkt" else numpy.full(20000, 7)
+                las.write(self.path("c.laz"))
+                done = ingest(self.path("c.laz"), self.path("w"))
+                self.assertEqual(done.returncode, 0, done.stderr)
+                said_there = done.stdout + done.stderr
+                self.assertEqual("3 set-ups by the points' source ids (7 ... 9)" in said_there, name == "wkt", said_there)
+                dump = subprocess.run(["h5dump", "-A", "-g", "/frame", self.path("w/10_ingest/cloud.h5")], capture_output=True, text=True,
+                                      check=True).stdout.replace('\\"', '"')
+                if wanted:
+                    self.assertIn(wanted, dump)
+                    self.assertIn("coordinate system: " + ("ETRS89 / UTM zone 32N" if name == "wkt" else wanted), said_there)
+                else:
+                    self.assertNotIn("crs", dump)
+
+    def test_normals_of_e57_turn_with_their_scan(self):
+        world = room(3000)
+        normals = numpy.tile((0.6, 0.0, 0.8), (3000, 1))
+        quarter = turn(math.pi / 2, (0, 0, 1))
+        write_e57(self.path("n.e57"), [{"points": world, "normals": normals, "rotation": quarter}, {"points": world}])
+        points, _, _, error = decode(self.path("n.e57"))
+        self.assertIsNone(error)
+        numpy.testing.assert_allclose(points[:3000], rotate(quarter, world), atol=1e-9)
+        numpy.testing.assert_allclose(said["normals"][:3000], rotate(quarter, normals), atol=1e-6)
+        self.assertFalse(said["normals"][3000:].any(), "no normal, no direction")
+        self.assertEqual(ingest(self.path("n.e57"), self.path("w")).returncode, 0)
+
     def test_las_with_fewer_or_more_points_than_promised_is_refused(self):
         write_las(self.path("a.las"), room(1000))
         with open(self.path("a.las"), "rb") as file:
@@ -242,35 +311,81 @@ class Decoders(unittest.TestCase):
         for ending, cloud in clouds.items():
             self.assertEqual(cloud, clouds["ply"], ending)
 
-    def test_a_decoder_that_dies_leaves_an_error_and_no_half_cloud(self):
-        write_las(self.path("k.las"), room(200000))
+    def own_ingest(self):
+        """A copy of the program in a build folder of its own, whose decoders can be replaced; its path."""
         os.mkdir(self.path("bin"))
         os.symlink(os.path.join(BUILD, "python"), self.path("python"))
         os.mkdir(self.path("decoders"))
-        copy = self.path("bin/ingest")
-        with open(INGEST, "rb") as program, open(copy, "wb") as out:
-            out.write(program.read())
-        os.chmod(copy, 0o755)
-        death = {"stops": "import os, sys; sys.stdout.buffer.write(b'P'); sys.stdout.flush(); os._exit(0)",
-                 "is killed": "import os; os.kill(os.getpid(), 9)", "fails": "raise SystemExit('no luck')",
-                 "ends without the end": "import sys; sys.stdout.buffer.write(b'P' + (48).to_bytes(8, 'little') + bytes(48))",
-                 "lies": "import sys; sys.stdout.buffer.write(b'E' + (8).to_bytes(8, 'little') + (9).to_bytes(8, 'little'))",
-                 "claims": "import sys; sys.stdout.buffer.write(b'N' + bytes([255] * 8))"}
+        shutil.copy(INGEST, self.path("bin/ingest"))
+        return self.path("bin/ingest")
+
+    def left(self):
+        return [file for _, _, files in os.walk(self.path("w")) for file in files if file != "ingest.json"]
+
+    def test_a_decoder_that_dies_leaves_an_error_and_no_half_cloud(self):
+        write_las(self.path("k.las"), room(200000))
+        copy = self.own_ingest()
+        write = "import os, signal, struct, sys; put = lambda k, b: sys.stdout.buffer.write(k + struct.pack('<Q', len(b)) + b); "
+        head = write + "put(b'B', struct.pack('<2Q6d', 200000, 0, *[1.0] * 6)); put(b'P', bytes(24 * 150000)); sys.stdout.flush(); "
+        death = {"says nothing": "pass", "closes the pipe": "import os, signal; os.close(1); signal.pause()",
+                 "stops": write + "sys.stdout.buffer.write(b'P'); sys.stdout.flush(); os._exit(0)",
+                 "stops behind points": head + "sys.stdout.buffer.write(b'P'); sys.stdout.flush(); os._exit(0)",
+                 "is killed": "import os; os.kill(os.getpid(), 9)", "is killed behind points": head + "os.kill(os.getpid(), 9)",
+                 "is stopped": "import os, signal; os.kill(os.getpid(), signal.SIGSTOP)",
+                 "is stopped behind points": head + "os.kill(os.getpid(), signal.SIGSTOP)",
+                 "is stopped behind the end": head + "put(b'E', struct.pack('<Q', 150000)); sys.stdout.flush(); os.kill(os.getpid(), signal.SIGSTOP)",
+                 "fails": "raise SystemExit('no luck')", "fails behind points": head + "raise SystemExit('no luck')",
+                 "fails behind the end": head + "put(b'E', struct.pack('<Q', 150000)); raise SystemExit('no luck')",
+                 "ends without the end": head, "points before the head": write + "put(b'P', bytes(48)); put(b'E', struct.pack('<Q', 2))",
+                 "lies": head + "put(b'E', struct.pack('<Q', 150001))", "gives half a point": head + "put(b'P', bytes(20))",
+                 "gives more than it said": head + "put(b'P', bytes(24 * 50001))",
+                 "claims": "import sys; sys.stdout.buffer.write(b'N' + bytes([255] * 8))", "babbles": "while True: print('text')"}
         for name, program in death.items():
             with self.subTest(decoder=name):
                 with open(self.path("decoders/las.py"), "w", encoding="ascii") as out:
                     out.write(program)
                 done = subprocess.run([copy, "--scan", self.path("k.las"), "--work", self.path("w")], capture_output=True, text=True,
-                                      check=False)
+                                      check=False, timeout=60)
                 self.assertEqual(done.returncode, 3, done.stderr)
                 self.assertRegex(done.stderr, r"error\[C04\].*decoder did not come to the end")
-                left = [file for _, _, files in os.walk(self.path("w")) for file in files if file != "ingest.json"]
-                self.assertEqual(left, [])
+                self.assertIn("hint:", done.stderr)
+                self.assertEqual(self.left(), [])
         os.remove(self.path("python"))
         done = subprocess.run([copy, "--scan", self.path("k.las"), "--work", self.path("w")], capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 3)
         self.assertIn("error[C12]", done.stderr)
         self.assertIn("make deps", done.stderr)
+
+    def test_killed_at_any_moment_the_decoder_is_an_error_and_ingest_leaves_nothing(self):
+        world = room(1500000)
+        write_las(self.path("k.laz"), world)
+        begun = time.monotonic()
+        self.assertEqual(ingest(self.path("k.laz"), self.path("whole")).returncode, 0)
+        whole = time.monotonic() - begun
+        for victim in ("decoder", "ingest"):
+            ended_early = 0
+            for moment in range(6):
+                with self.subTest(victim=victim, moment=moment):
+                    shutil.rmtree(self.path("w"), ignore_errors=True)
+                    process = subprocess.Popen([INGEST, "--scan", self.path("k.laz"), "--work", self.path("w")], stderr=subprocess.PIPE, text=True)
+                    time.sleep(whole * (0.05 + 0.12 * moment))
+                    with open(f"/proc/{process.pid}/task/{process.pid}/children", encoding="ascii") as text:
+                        decoders = [int(child) for child in text.read().split()]
+                    for child in decoders if victim == "decoder" else [process.pid]:
+                        os.kill(child, signal.SIGKILL)
+                    _, error = process.communicate(timeout=60)
+                    if process.returncode == 0:
+                        continue  # it had done its work by then
+                    ended_early += 1
+                    if victim == "decoder":
+                        self.assertEqual(process.returncode, 3, error)
+                        self.assertRegex(error, r"error\[C04\].*ended by signal 9")
+                        self.assertEqual(self.left(), [])
+                    else:
+                        self.assertFalse(os.path.exists(self.path("w/10_ingest/cloud.h5")))
+                        for child in decoders:
+                            self.assertTrue(gone(child), "a decoder without ingest goes on")
+            self.assertGreater(ended_early, 0)
 
     def test_mutated_files_are_read_or_refused_with_a_remedy(self):
         world = room(2000)
@@ -349,4 +464,4 @@ class SharedFiles(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)

@@ -49,7 +49,7 @@ def scans_ptx():
 
 
 DIGEST = "0" * 64
-OPENINGS = """{"type": "FeatureCollection", "name": "openings", "roomcut": {"artefact": "openings", "schema_version": "1.0", "length_unit": "m",
+OPENINGS = """{"type": "FeatureCollection", "name": "openings", "roomcut": {"artefact": "openings", "schema_version": "2.0", "length_unit": "m", "coordinates": "scan",
 "frame": {"origin": [0.0, 0.0, 0.0], "unit": "m", "up": "z"}, "cells_payload_sha256": "DIGEST",
 "provenance": {"inputs": [], "params_json": "{}", "params_sha256": "DIGEST", "payload_sha256": "DIGEST", "stage": "find_openings", "stage_revision": 2}},
 "features": [{"type": "Feature", "id": "o0001", "properties": {"opening_id": "o0001", "walls": ["w0006", "w0008"], "thickness_m": 0.149658,

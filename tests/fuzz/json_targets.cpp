@@ -71,7 +71,7 @@ void scores(std::string_view bytes) {
 
 void truth_json(std::string_view bytes) {
   const PrivateFile file(bytes, ".json");
-  read_described_rooms(file.path(), Vec3(0, 0, 0));
+  read_described_rooms(file.path(), {});
 }
 
 void params_dump(std::string_view bytes) {

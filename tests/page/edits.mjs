@@ -81,13 +81,22 @@ const accepted = (work) => new Map(json(join(work, "40_accept_lines", "wall_line
  * Drags an outer wall outwards and locks it; undoes, redoes; saves, runs; the wall has moved in model.ply by as much.
  * @param metres about how far
  */
+/** The origin of the page's coordinates in those of the scan, which all files hold. */
+const originOf = (work) => json(join(work, "summary.json")).frame.origin;
+
+/** Vertices of the model as the page has them. */
+function pageVertices(work) {
+  const [x0, y0, z0] = originOf(work);
+  return modelVertices(work).map(([x, y, z]) => [x - x0, y - y0, z - z0]);
+}
+
 export async function movesWall(page, scan, work, name, metres) {
   await page.click("#tab-plan");
   await page.click("#edit-toggle");
   const line = await outerLine(page);
   assert.ok(line, "no outer wall line");
   const middle = [(line.a[0] + line.b[0]) / 2, (line.a[1] + line.b[1]) / 2];
-  const carried = verticesOn(modelVertices(work), line.a, line.b, 0.03);
+  const carried = verticesOn(pageVertices(work), line.a, line.b, 0.03);
   let moved = 0;
 
   await step("a wall is dragged by a known distance, with its points in sight", async () => {
@@ -122,7 +131,7 @@ export async function movesWall(page, scan, work, name, metres) {
     assert.equal(feature.properties.source, "edited");
     assert.equal(feature.properties.locked, true);
     const away = ([x, y], offset) => [x + line.normal[0] * offset, y + line.normal[1] * offset];
-    const vertices = modelVertices(work);
+    const vertices = pageVertices(work);
     const there = verticesOn(vertices, away(line.a, moved), away(line.b, moved), 0.002);
     const left = verticesOn(vertices, line.a, line.b, 0.03);
     console.log(`        ${line.key} moved ${moved.toFixed(3)} m: ${carried} vertices at the old place, now ${left}; ${there} at the new one`);
@@ -211,7 +220,8 @@ export async function editsLines(page, scan, work, name) {
     const added = [...after.values()].filter(({ properties }) => properties.source === "added");
     assert.equal(added.length, 1);
     const ends = added[0].geometry.coordinates.flat();
-    const wanted = [...drawn.a, ...drawn.b];
+    const [x, y] = originOf(work);
+    const wanted = [drawn.a[0] + x, drawn.a[1] + y, drawn.b[0] + x, drawn.b[1] + y];
     const same = (order) => order.every((k, i) => Math.abs(ends[i] - wanted[k]) < 2e-6);
     assert.ok(same([0, 1, 2, 3]) || same([2, 3, 0, 1]), `${ends} instead of ${wanted}`);
     for (const [id, feature] of before) {

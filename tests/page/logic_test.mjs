@@ -7,6 +7,7 @@ import { pathToFileURL } from "node:url";
 
 const page = (file) => import(pathToFileURL(join(process.env.ROOMCUT_SOURCE, "stages/report/page/src", file)).href);
 const { LineDocument, offsetBetween, shifted } = await page("edit/document.js");
+const { inLocal, inScan, ScanCoordinates } = await page("data/coordinates.js");
 const { fitOf, snapDirection, snapLength, snapOffset } = await page("edit/snap.js");
 const { parseBlock } = await page("data/blocks.js");
 const colours = await page("colours.js");
@@ -38,6 +39,54 @@ test("a moved line keeps its id, unknown properties and the member roomcut", () 
   assert.deepEqual(written.roomcut, lines().roomcut);
   assert.deepEqual(document.changes(), ["w0001 moved 250 mm"]);
 });
+
+const kUtm = { origin: [691234.123456, 5334567.654321, 512.5], unit: "m", up: "z" };
+const kLean = { ...kUtm, level: [0.03, 0.04, Math.sqrt(1 - 0.0025)] };
+const close = (a, b, limit = 1e-6) => a.flat(9).forEach((value, i) => assert.ok(Math.abs(value - b.flat(9)[i]) < limit, `${a} instead of ${b}`));
+
+for (const frame of [kUtm, kLean]) {
+  test(`editing is local, what is written is in the scan's own coordinates, ${frame.level ? "levelled" : "level"}`, () => {
+    const scan = new ScanCoordinates(frame);
+    const file = inScan({ ...lines(), roomcut: { ...lines().roomcut, bbox: [0, 0, 4, 3] } }, scan);
+    close(file.features[0].geometry.coordinates[1], scan.planToScan([4, 0]));
+    assert.equal(file.roomcut.coordinates, "scan");
+    const document = new LineDocument(file, scan);
+    close(document.find("w0001").b, [4, 0]);
+    assert.deepEqual(JSON.parse(document.toText()), file, "what is not edited is written as it was read");
+    document.shift("w0001", 0.25);
+    close(JSON.parse(document.toText()).features[0].geometry.coordinates, [scan.planToScan([0, 0.25]), scan.planToScan([4, 0.25])]);
+  });
+
+  test(`a local edit of before becomes one in the scan's own, ${frame.level ? "levelled" : "level"}`, () => {
+    const scan = new ScanCoordinates(frame);
+    const before = lines();
+    before.roomcut.frame = frame;
+    const document = new LineDocument(before, scan);
+    assert.deepEqual(document.find("w0002").b, [4, 3]);
+    const written = JSON.parse(document.toText());
+    assert.equal(written.roomcut.coordinates, "scan");
+    assert.equal(written.roomcut.schema_version, "1.1");
+    close(written.features[1].geometry.coordinates[1], scan.planToScan([4, 3]));
+  });
+
+  test(`a file without the member is what its unmoved lines say, ${frame.level ? "levelled" : "level"}`, () => {
+    const scan = new ScanCoordinates(frame);
+    const { roomcut: _, ...local } = lines();
+    const { roomcut: __, ...far } = inScan(lines(), scan);
+    for (const file of [local, far]) {
+      close(new LineDocument(file, scan, lines().features).find("w0001").b, [4, 0]);
+    }
+  });
+
+  test(`heights of openings are local in the page, ${frame.level ? "levelled" : "level"}`, () => {
+    const scan = new ScanCoordinates(frame);
+    const sill = scan.toScan([3, 1, 0.5])[2];
+    const opening = { properties: { sill_z_m: sill, head_z_m: sill + 2 }, geometry: { type: "LineString", coordinates: [scan.planToScan([2, 1]), scan.planToScan([4, 1])] } };
+    const [found] = inLocal({ roomcut: { coordinates: "scan" }, features: [opening] }, scan).features;
+    close([found.properties.sill_z_m, found.properties.head_z_m], [0.5, 0.5 + 2 / (frame.level?.[2] ?? 1)]);
+    close(scan.toLocal(scan.toScan([1, 2, 3])), [1, 2, 3]);
+  });
+}
 
 test("one feature a line, six decimals", () => {
   const document = new LineDocument(lines());

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page as `make view` serves it: a wall is moved, saved and run with one button; the page shows how far the run is, comes back
-// by itself and shows the result; the edit is dropped again.
+// by itself and shows the result; the edit is dropped again. The scan lies in UTM: what is written does so, too.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
-import { existsSync, readdirSync } from "node:fs";
+import { existsSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { build, make, modelVertices, need, openBrowser, run, screenshot, settled, source, step, temporaryFolder } from "./browser.mjs";
 import { nothingWrong } from "./looks.mjs";
 
 const kMoved_m = 0.2;
+const kPlace = [691234.25, 5334567.5, 512];
 
 need();
 const folder = temporaryFolder();
@@ -16,7 +17,20 @@ const scan = join(folder, "scan.ply");
 const work = join(folder, "work");
 const scene = join(source, "tests/data/scenes/one_room.json");
 run(join(build, "bin", "synthesize"), ["-q", "--scene", scene, "--scan-out", scan, "--truth-out", join(folder, "truth.off"), "--truth-json", join(folder, "truth.json")]);
+moveTo(kPlace);
 make("run", scan, work);
+
+/** The scan's floats as doubles, moved to a place. */
+function moveTo(place) {
+  const content = readFileSync(scan);
+  const head = content.indexOf("end_header\n") + "end_header\n".length;
+  const count = (content.length - head) / 4;
+  const moved = Buffer.alloc(8 * count);
+  for (let i = 0; i < count; ++i) {
+    moved.writeDoubleLE(content.readFloatLE(head + 4 * i) + place[i % 3], 8 * i);
+  }
+  writeFileSync(scan, Buffer.concat([Buffer.from(content.subarray(0, head).toString().replaceAll("float", "double")), moved]));
+}
 
 /** Starts make view; resolves to the address that it prints. */
 function serve() {
@@ -99,6 +113,21 @@ await step("saved and run with one button: progress is shown, the page comes bac
 
 await step("the wall has moved in model.ply by that distance", () => {
   assert.ok(Math.abs(east() - before - kMoved_m) < 0.002, `${east() - before} m`);
+});
+
+await step("the edit is written in the scan's own coordinates, one line of it moved", () => {
+  const lines = (...names) => JSON.parse(readFileSync(join(work, ...names, "wall_lines.geojson"), "utf8"));
+  const [edit, detected] = [lines("edits"), lines("30_detect_lines")];
+  assert.equal(edit.roomcut.coordinates, "scan");
+  const points = edit.features.flatMap(({ geometry }) => geometry.coordinates);
+  assert.ok(points.every(([x, y]) => Math.hypot(x - kPlace[0], y - kPlace[1]) < 10), JSON.stringify(points));
+  const found = new Map(detected.features.map((feature) => [feature.properties.wall_id, feature]));
+  const moved = edit.features.filter((feature) => JSON.stringify(feature.geometry) !== JSON.stringify(found.get(feature.properties.wall_id).geometry));
+  assert.equal(moved.length, 1);
+});
+
+await step("the page says where its origin lies", async () => {
+  assert.match(await page.textContent("#frame"), /origin at \d{6}\S*, \d{7}/);
 });
 
 await step("what the door refuses is said, and nothing is written", async () => {

@@ -3,7 +3,7 @@
 
 Cartesian or spherical coordinates of any representation; poses with or without rotation or translation; points marked invalid and
 beams without return are dropped and counted. Every page that is read is checked. A scan's pose is a scanner position, unless it is
-the identity of a cartesian scan, which is how registered clouds are written."""
+the identity of a cartesian scan, which is how registered clouds are written. Normals as the extension "nor" has them."""
 import re
 
 import numpy
@@ -13,6 +13,7 @@ import point_stream
 
 BLOCK = 1 << 17  # points
 CARTESIAN = ("cartesianX", "cartesianY", "cartesianZ")
+NORMALS = ("nor:normalX", "nor:normalY", "nor:normalZ")
 SPHERICAL = ("sphericalRange", "sphericalAzimuth", "sphericalElevation")
 
 
@@ -73,63 +74,95 @@ def cartesian(columns, spherical):
     return numpy.stack((level * numpy.cos(azimuth), level * numpy.sin(azimuth), distance * numpy.sin(elevation)), axis=1)
 
 
-def read_scan(image, scan, stream):
-    points = child(scan, "points")
-    if points is None:
-        raise point_stream.ScanError("C04", "a scan without points")
-    prototype = libe57.StructureNode(points.prototype())
-    spherical = not all(prototype.isDefined(name) for name in CARTESIAN)
-    names = SPHERICAL if spherical else CARTESIAN
-    missing = [name for name in names if not prototype.isDefined(name)]
-    if missing:
-        raise point_stream.ScanError("C04", f"a scan has neither cartesian nor spherical coordinates ({missing[0]} is missing)")
-    turn, move = pose(scan)
-    if turn is not None or move is not None:
-        moved = move is not None and move.any()
-        turned = turn is not None and not numpy.allclose(turn, numpy.eye(3), atol=1e-12)
-        if spherical or moved or turned:
-            stream.station(move if move is not None else (0, 0, 0))
-    if points.childCount() == 0:
-        return
-    state = "sphericalInvalidState" if spherical else "cartesianInvalidState"
-    columns, buffers = buffers_for(image, (*names, state) if prototype.isDefined(state) else names)
-    read = 0
-    reader = points.reader(buffers)
-    while (count := reader.read()) > 0:
-        read += count
-        valid = numpy.ones(count, bool) if len(columns) == 3 else columns[3][:count] == 0
-        stream.invalid += int(count - valid.sum())
-        xyz = cartesian([column[:count][valid] for column in columns[:3]], spherical)
+class Scan:
+    """One scan of the file: what is read of it, and where it lies."""
+
+    def __init__(self, node):
+        self.points = child(node, "points")
+        if self.points is None:
+            raise point_stream.ScanError("C04", "a scan without points")
+        prototype = libe57.StructureNode(self.points.prototype())
+        defined = {prototype.get(index).elementName() for index in range(prototype.childCount())}
+        self.spherical = not defined.issuperset(CARTESIAN)
+        self.names = SPHERICAL if self.spherical else CARTESIAN
+        missing = [name for name in self.names if name not in defined]
+        if missing:
+            raise point_stream.ScanError("C04", f"a scan has neither cartesian nor spherical coordinates ({missing[0]} is missing)")
+        self.normals = NORMALS if defined.issuperset(NORMALS) else ()
+        state = "sphericalInvalidState" if self.spherical else "cartesianInvalidState"
+        self.state = (state,) if state in defined else ()
+        self.turn, self.move = pose(node)
+
+    def station(self):
+        """The scanner position; None: the pose says of none."""
+        if self.turn is None and self.move is None:
+            return None
+        moved = self.move is not None and self.move.any()
+        turned = self.turn is not None and not numpy.allclose(self.turn, numpy.eye(3), atol=1e-12)
+        if not (self.spherical or moved or turned):
+            return None
+        return self.move if self.move is not None else (0, 0, 0)
+
+    def read(self, image, stream):
+        promised = self.points.childCount()
+        if promised == 0:
+            return
+        columns, buffers = buffers_for(image, (*self.names, *self.normals, *self.state))
+        read = 0
+        reader = self.points.reader(buffers)
+        while (count := reader.read()) > 0:
+            read += count
+            self.add([column[:count] for column in columns], stream)
+        reader.close()
+        if read != promised:
+            raise point_stream.ScanError("C05", f"a scan's header promises {promised} points, the file holds {read}")
+
+    def add(self, columns, stream):
+        xyz = cartesian(columns[:3], self.spherical)
         returned = xyz.any(axis=1)
-        stream.no_returns += int(len(xyz) - returned.sum())
-        xyz = xyz if returned.all() else xyz[returned]
-        if turn is not None:
-            xyz = xyz @ turn.T
-        if move is not None:
-            xyz = xyz + move
-        stream.add(xyz)
-    reader.close()
-    if read != points.childCount():
-        raise point_stream.ScanError("C05", f"a scan's header promises {points.childCount()} points, the file holds {read}")
+        valid = columns[-1] == 0 if self.state else numpy.ones(len(xyz), bool)
+        stream.invalid += int(len(xyz) - valid.sum())
+        stream.no_returns += int((valid & ~returned).sum())
+        kept = valid & returned
+        normals = numpy.stack(columns[3:6], axis=1) if self.normals else None
+        if not kept.all():
+            xyz = xyz[kept]
+            normals = normals[kept] if self.normals else None
+        if self.turn is not None:
+            xyz = xyz @ self.turn.T
+            normals = normals @ self.turn.T if self.normals else None
+        if self.move is not None:
+            xyz = xyz + self.move
+        stream.add(xyz, normals)
+
+
+def at_scan(index, call):
+    """call(), errors named by the scan."""
+    try:
+        return call()
+    except libe57.E57Exception as error:
+        raise scan_error(error, f"scan {index + 1}: ") from None
+    except point_stream.ScanError as error:
+        error.what = f"scan {index + 1}: {error.what}"
+        raise
 
 
 def decode(path, stream):
     image = open_image(path)
     root = image.root()
-    scans = child(root, "data3D")
+    nodes = child(root, "data3D")
     crs = child(root, "coordinateMetadata")
-    if crs and crs.value().strip():
-        stream.note("coordinate system: " + " ".join(crs.value().split()))
-    for index in range(len(scans) if scans else 0):
-        try:
-            read_scan(image, scans[index], stream)
-        except libe57.E57Exception as error:
-            raise scan_error(error, f"scan {index + 1}: ") from None
-        except point_stream.ScanError as error:
-            error.what = f"scan {index + 1}: {error.what}"
-            raise
-    if stream.points + stream.no_returns + stream.invalid == 0:
+    if crs:
+        stream.coordinate_system(crs.value())
+    scans = [at_scan(index, lambda at=index: Scan(nodes[at])) for index in range(len(nodes) if nodes else 0)]
+    for station in filter(lambda place: place is not None, (scan.station() for scan in scans)):
+        stream.station(station)
+    promised = sum(scan.points.childCount() for scan in scans)
+    if promised == 0:
         raise point_stream.ScanError("C06", "there is no scan with points in it")
+    stream.begin(promised, point_stream.WITH_NORMALS if any(scan.normals for scan in scans) else point_stream.DOUBLES)
+    for index, scan in enumerate(scans):
+        at_scan(index, lambda here=scan: here.read(image, stream))
 
 
 if __name__ == "__main__":

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Decodes a LAS or LAZ file for `ingest`, block by block. usage: las.py FILE
 
-LAS 1.0 to 1.5, point formats 0 to 10, the number of points from the field that counts; scale and offset applied in double; withheld
-points dropped and counted; the coordinate system as a note."""
+LAS 1.0 to 1.5, point formats 0 to 10, the number of points from the field that counts; numbers, scale and offset as they
+stand; withheld points dropped and counted; the coordinate system as text."""
 import os
 import struct
 
@@ -58,7 +58,7 @@ def check_chunks(header):
 
 def blocks(path):
     """The points of a file, a block at a time: lazrs on all cores, LASzip for the compression that only it knows (version 4)."""
-    needed = laspy.DecompressionSelection.base().decompress_z().decompress_flags()  # formats 6 to 10 come in layers
+    needed = laspy.DecompressionSelection.base().decompress_z().decompress_flags().decompress_point_source_id()  # formats 6 to 10 come in layers
     with laspy.open(path, laz_backend=laspy.LazBackend.LazrsParallel, decompression_selection=needed) as reader:
         try:
             yield from reader.chunk_iterator(BLOCK)
@@ -79,26 +79,32 @@ def decode(path, stream):
         check_plain(path, header)
     if header.point_count == 0:
         raise point_stream.ScanError("C06", "the header promises no point")
-    scales, offsets = numpy.array(header.scales), numpy.array(header.offsets)
-    if not (numpy.isfinite(scales).all() and numpy.isfinite(offsets).all() and (scales != 0).all()):
+    if not (numpy.isfinite(header.scales).all() and numpy.isfinite(header.offsets).all() and numpy.all(header.scales)):
         raise point_stream.ScanError("C04", "its scale or offset is no number")
     crs = coordinate_system(header)
     if crs:
-        stream.note("coordinate system: " + " ".join(crs.split()))
+        stream.coordinate_system(crs)
+    stream.begin(header.point_count, point_stream.SCALED, header.scales, header.offsets)
     read = 0
+    sources = numpy.zeros(1 << 16, bool)
     for block in blocks(path):
         read += len(block)
-        withheld = numpy.asarray(block.withheld, bool)
-        xyz = numpy.empty((len(block), 3))
+        ids = block.array["point_source_id"]
+        sources[ids if (ids != ids[0]).any() else ids[0]] = True  # mostly they are all the same
+        xyz = numpy.empty((len(block), 3), "<i4")
         for axis, name in enumerate("XYZ"):
-            numpy.multiply(block.array[name], scales[axis], out=xyz[:, axis])
-            xyz[:, axis] += offsets[axis]
+            xyz[:, axis] = block.array[name]
+        withheld = numpy.asarray(block.withheld, bool)
         if withheld.any():
             stream.invalid += int(withheld.sum())
             xyz = xyz[~withheld]
-        stream.add(xyz)
+        stream.add_records(xyz)
     if read != header.point_count:
         raise point_stream.ScanError("C05", f"the header promises {header.point_count} points, the file holds {read}")
+    set_ups = numpy.flatnonzero(sources)
+    if len(set_ups) > 1:
+        stream.note(f"{len(set_ups)} set-ups by the points' source ids ({set_ups[0]} ... {set_ups[-1]}); LAS has no scanner positions: "
+                    "give them in a file (make STATIONS=...)")
 
 
 if __name__ == "__main__":

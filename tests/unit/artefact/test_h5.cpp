@@ -27,6 +27,7 @@ Frame some_frame() {
   frame.origin[2] = -1.25;
   frame.unit = "mm";
   frame.up = "-y";
+  frame.crs = "LOCAL_CS[\"Bauwerk\"]";
   return frame;
 }
 
@@ -61,6 +62,22 @@ TEST(H5, returns_what_was_written) {
   EXPECT_FALSE(reader.exists("none/z"));
 }
 
+TEST(H5, keeps_the_coordinate_system_and_counts_it_as_content) {
+  const TemporaryFolder folder;
+  std::string payload[2];
+  for (const std::string crs : {"", "PROJCS[\"größer\"]"}) {
+    Frame frame;
+    frame.crs = crs;
+    H5Writer writer(folder / "cells.h5", kType, some_provenance(), frame);
+    writer.write<double>("levels/z", {0.0, 5.0}, "m", "heights");
+    writer.commit();
+    const H5Reader reader(folder / "cells.h5", kType);
+    EXPECT_EQ(reader.frame().crs, crs);
+    payload[crs.empty() ? 0 : 1] = inspect_artefact(folder / "cells.h5").payload_sha256;
+  }
+  EXPECT_NE(payload[0], payload[1]);
+}
+
 TEST(H5, keeps_frame_and_provenance) {
   const TemporaryFolder folder;
   write_sample(folder / "cells.h5");
@@ -69,6 +86,7 @@ TEST(H5, keeps_frame_and_provenance) {
   EXPECT_EQ(reader.frame().origin[2], -1.25);
   EXPECT_EQ(reader.frame().unit, "mm");
   EXPECT_EQ(reader.frame().up, "-y");
+  EXPECT_EQ(reader.frame().crs, some_frame().crs);
   EXPECT_EQ(reader.provenance().stage, "partition");
   EXPECT_EQ(reader.provenance().stage_revision, 3);
   EXPECT_EQ(reader.provenance().params_json, R"({"a":1})");

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/artefact/artefact_check.h"
 #include "common/artefact/h5.h"
 #include "tests/unit/artefact/temporary_folder.h"
 
@@ -32,6 +33,9 @@ TEST(Json, keeps_provenance_and_frame) {
   frame.origin[1] = 0.1;
   frame.up = "y";
   EXPECT_EQ(to_json(frame_from_json(to_json(frame))), to_json(frame));
+  EXPECT_FALSE(to_json(frame).contains("crs")) << "files of before have none";
+  frame.crs = "EPSG:25832";
+  EXPECT_EQ(frame_from_json(to_json(frame)).crs, frame.crs);
   EXPECT_THROW(provenance_from_json(Json::object()), Json::exception);
 }
 
@@ -103,7 +107,7 @@ TEST(JsonArtefact, is_inspected_like_an_hdf5_one) {
   write_json_artefact(folder / "s.json", artefacts::kSummary, {}, {}, {{"a", 1}});
   const InputRecord record = inspect_artefact(folder / "s.json");
   EXPECT_EQ(record.artefact, "summary");
-  EXPECT_EQ(record.schema_version, "1.0");
+  EXPECT_EQ(record.schema_version, version_text(artefacts::kSummary));
   EXPECT_EQ(record.payload_sha256.size(), 64U);
   put_bytes(folder / "lines.geojson",
             R"({"type":"FeatureCollection","roomcut":{"artefact":"wall_lines","schema_version":"1.0",

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "common/geometry/scan_coordinates.h"
 #include "tests/unit/compare/square_run.h"
 
 namespace roomcut {
@@ -83,6 +85,21 @@ TEST(CompareRuns, parameters_that_differ_or_that_one_run_does_not_know_are_liste
   ASSERT_EQ(parameters.size(), 2U);
   EXPECT_EQ(parameters[0].parameter + parameters[0].a + parameters[0].b, "graphcut.mu_m0.30.5");
   EXPECT_EQ(parameters[1].parameter + parameters[1].a + parameters[1].b, "extract.new1");
+}
+
+TEST(CompareRuns, a_levelled_run_and_one_that_is_not_are_compared_in_the_same_axes) {
+  const RunFacts a = square_run("a", 6);
+  RunFacts b = a;
+  b.frame.level[0] = 0.08;  // 4.6 degrees
+  b.frame.level[2] = std::sqrt(1 - 0.0064);
+  const ScanCoordinates scan(b.frame);
+  for (WallLine& line : b.lines) {
+    line.a = scan.plan_to_local(line.a);
+    line.b = scan.plan_to_local(line.b);
+  }
+  EXPECT_EQ(compare_runs(a, b).lines.same(), 4U);
+  EXPECT_LT((lines_in(b, a.frame)[0].a - a.lines[0].a).norm(), 1e-9);
+  EXPECT_GT((b.lines[0].b - a.lines[0].b).norm() + (b.lines[0].a - a.lines[0].a).norm(), 0.01);
 }
 
 TEST(CompareRuns, scans_with_different_origins_are_compared_by_their_coordinates) {

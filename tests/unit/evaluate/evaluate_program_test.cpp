@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +11,7 @@
 #include "common/artefact/h5.h"
 #include "common/artefact/json.h"
 #include "common/cells/cells_io.h"
+#include "common/geometry/scan_coordinates.h"
 #include "common/mesh/mesh_io.h"
 #include "tests/unit/cells/three_faces.h"
 #include "tests/unit/mesh/shapes.h"
@@ -129,6 +131,32 @@ TEST_F(EvaluateProgram, TruthOfTheCellsIsWrittenWhenAskedForAndBelongsToTheCells
   ASSERT_EQ(
       run("--truth truth.off --cells cells.h5 --labels labels.h5 --cells-out truth_cells.h5 --threads 3"), 0);
   EXPECT_EQ(read("truth_cells.h5"), bytes);
+}
+
+TEST_F(EvaluateProgram, CellsOfALevelledScanAreComparedInTheirOwnAxes) {
+  CellComplex complex = three_faces();
+  const auto truth_of_cells = [&] {
+    write_cells(work_ / "cells.h5", complex, {});
+    const CellsFile cells = read_cells(work_ / "cells.h5");
+    write_labels(work_ / "labels.h5", all_solid(complex), cells, {});
+    EXPECT_EQ(run("--truth truth.off --cells cells.h5 --labels labels.h5 --cells-out truth_cells.h5"), 0)
+        << read("stderr");
+    return H5Reader(work_ / "truth_cells.h5", artefacts::kTruthCells)
+        .read<double>("cell/empty", {complex.cells()});
+  };
+  const std::vector<double> level = truth_of_cells();
+  complex.frame.origin[1] = 5000;
+  complex.frame.level[0] = 0.08;  // 4.6 degrees
+  complex.frame.level[2] = std::sqrt(1 - 0.0064);
+  const ScanCoordinates scan(complex.frame);
+  TriangleMesh rooms = read_mesh(work_ / "truth.off");
+  for (Vec3& vertex : rooms.vertices) vertex = scan.to_scan(vertex);
+  write("truth.off", off_text(rooms, {0, 0, 0}));
+  write("model.ply", ply_bytes(rooms, {0, 0, 0}, {}));
+  const std::vector<double> leaning = truth_of_cells();
+  for (std::size_t cell = 0; cell < complex.cells(); ++cell) EXPECT_NEAR(leaning[cell], level[cell], 0.05);
+  EXPECT_LT((bounds(read_mesh(work_ / "evaluate/distance.ply")).lo - bounds(rooms).lo).norm(), 1e-3)
+      << "what is written lies on the scan";
 }
 
 TEST_F(EvaluateProgram, TruthOfTheCellsNeedsCellsAndAClosedModel) {

@@ -41,7 +41,7 @@ TEST(Evaluate, AMeshAgainstItselfIsPerfect) {
 }
 
 TEST(Evaluate, AShiftOfOneCentimetreGivesTheKnownOverlap) {
-  const TriangleMesh model = prepared(two_rooms(), {-0.01, 0, 0});
+  const TriangleMesh model = prepared(two_rooms(), {Vec3(-0.01, 0, 0)});
   const Scores scores = evaluate(model, two_rooms(), {}, kCoarse);
   EXPECT_NEAR(scores.model_to_truth.max, 0.01, 1e-9);
   EXPECT_NEAR(scores.truth_to_model.max, 0.01, 1e-9);
@@ -53,8 +53,8 @@ TEST(Evaluate, AShiftOfOneCentimetreGivesTheKnownOverlap) {
 
 TEST(Evaluate, TheOriginDoesNotMatterMillionsOfMetresAway) {
   const Vec3 far(500000, 6000000, 300);
-  const TriangleMesh shifted = prepared(two_rooms(), -far);
-  const Scores scores = evaluate(prepared(shifted, far), two_rooms(), {}, kCoarse);
+  const TriangleMesh shifted = prepared(two_rooms(), {-far});
+  const Scores scores = evaluate(prepared(shifted, {far}), two_rooms(), {}, kCoarse);
   EXPECT_LT(scores.model_to_truth.max, 1e-8);
   EXPECT_GT(scores.volume->iou(), 1 - 1e-6);
 }
@@ -62,7 +62,7 @@ TEST(Evaluate, TheOriginDoesNotMatterMillionsOfMetresAway) {
 TEST(Evaluate, OrientationOfTheFilesDoesNotMatter) {
   TriangleMesh turned = two_rooms();
   flip_orientation(turned);
-  const Scores scores = evaluate(prepared(turned, {0, 0, 0}), two_rooms(), {}, kCoarse);
+  const Scores scores = evaluate(prepared(turned, {}), two_rooms(), {}, kCoarse);
   EXPECT_DOUBLE_EQ(scores.volume->iou(), 1);
   EXPECT_DOUBLE_EQ(*scores.walls_matched, 1);
 }

@@ -3,12 +3,15 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
+#include "common/artefact/atomic_file.h"
 #include "common/artefact/json.h"
 #include "common/cells/cells_io.h"
+#include "common/geometry/scan_coordinates.h"
 #include "common/mesh/mesh_check.h"
 #include "common/mesh/mesh_io.h"
 #include "tests/unit/extract/grid_complex.h"
@@ -24,14 +27,15 @@ class ExtractProgram : public testing::Test {
     work_ = fs::path(testing::TempDir()) / "roomcut extract ü";
     fs::remove_all(work_);
     fs::create_directories(work_ / "90_final");
+    frame_.origin[0] = 1000;
+    frame_.origin[2] = 50;
   }
   void TearDown() override { fs::remove_all(work_); }
 
   // A block of 2 x 2 cells inside a rim of solid ones; `pattern` says which of them are empty.
   void write_inputs(const std::function<bool(const Vec2&, double)>& empty) const {
     CellComplex complex = test::grid_complex({0, 1, 2, 3, 4}, {0, 1, 2, 3, 4}, {0, 1, 2, 3});
-    complex.frame.origin[0] = 1000;
-    complex.frame.origin[2] = 50;
+    complex.frame = frame_;
     const fs::path folder = work_ / "90_final";
     write_cells(folder / "cells.h5", complex, {});
     const CellsFile cells = read_cells(folder / "cells.h5");
@@ -65,6 +69,7 @@ class ExtractProgram : public testing::Test {
   }
 
   fs::path work_;
+  Frame frame_;
 };
 
 bool in_the_middle(const Vec2& p, double z) {
@@ -88,6 +93,34 @@ TEST_F(ExtractProgram, WritesAModelThatLiesOnTheScanAndTheSameBytesAgain) {
   fs::remove(work_ / "model.ply");
   ASSERT_EQ(run(), 0);
   EXPECT_EQ(ply_bytes(read_mesh(work_ / "model.ply"), {0, 0, 0}, {}), first);
+}
+
+TEST_F(ExtractProgram, OfALevelledScanModelAndSummaryLieOnTheScan) {
+  frame_.level[0] = 0.06;
+  frame_.level[2] = std::sqrt(1 - 0.0036);
+  frame_.crs = "PROJCS[\"x\",\n UNIT[\"metre\",1]]";
+  write_inputs(in_the_middle);
+  ASSERT_EQ(run(), 0) << errors();
+  const ScanCoordinates scan(frame_);
+  const TriangleMesh model = read_mesh(work_ / "model.ply");
+  for (const Vec3& vertex : model.vertices) {
+    const Vec3 local = scan.to_local(vertex);
+    EXPECT_LT((local - local.array().round().matrix()).norm(), 1e-9) << "a corner of the cells";
+  }
+  const Json summary = read_json_artefact(work_ / "summary.json", artefacts::kSummary);
+  const Vec3 floor = scan.to_scan(Vec3(2, 2, 1));
+  for (const Json& space : {summary.at("storeys").at(0), summary.at("rooms").at(0)}) {
+    EXPECT_NEAR(space.at("centre_m").at(0).get<double>(), floor.x(), 1e-9);
+    EXPECT_NEAR(space.at("floor_z_m").get<double>(), floor.z(), 1e-9);
+    EXPECT_NEAR(space.at("ceiling_z_m").get<double>(), scan.to_scan(Vec3(2, 2, 2)).z(), 1e-9);
+    EXPECT_NEAR(space.at("height_m").get<double>(), 1, 1e-9);
+  }
+  EXPECT_EQ(summary.at("frame").at("crs"), frame_.crs);
+  for (const char* file : {"model.ply", "model.obj"}) {
+    EXPECT_NE(read_text_file(work_ / file).find(" coordinate system: PROJCS[\"x\", UNIT[\"metre\",1]]\n"),
+              std::string::npos)
+        << file;
+  }
 }
 
 TEST_F(ExtractProgram, SurfacesThatTouchAreN06AndTheMeshIsKeptAsEvidence) {

@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
+#include "common/artefact/json.h"
 #include "common/errors/codes.h"
+#include "common/geometry/scan_coordinates.h"
 
 namespace roomcut {
 namespace {
@@ -80,6 +83,30 @@ TEST_F(OpeningsIo, WhatIsWrittenIsReadSortedAndRounded) {
   EXPECT_EQ(first.proof_b.points, 100U) << "… and its proof with it";
   EXPECT_EQ(file.content.frame.origin[0], 500000.25);
   EXPECT_EQ(read_openings(path_).payload_sha256, file.payload_sha256);
+}
+
+TEST_F(OpeningsIo, OfALevelledScanTheFileHoldsTheScansOwnAndTheReaderLocalOnes) {
+  Openings openings = two();
+  openings.frame.origin[1] = 5334567.654321;
+  openings.frame.origin[2] = 512.5;
+  openings.frame.level[0] = 0.05;
+  openings.frame.level[2] = std::sqrt(1 - 0.0025);
+  openings.frame.crs = "EPSG:25832";
+  write_openings(path_, openings, {});
+  const OpeningsFile file = read_openings(path_);
+  EXPECT_FALSE(write_openings(path_, file.content, {})) << "read and written again, nothing is new";
+  const Opening& first = file.content.openings[0];
+  EXPECT_LT((first.jamb_a - Vec2(0.1, 2.0)).norm(), 2e-6);
+  EXPECT_NEAR(first.head_z, 2.05, 2e-6);
+  const Json document = Json::parse(std::ifstream(path_));
+  EXPECT_EQ(document["crs"]["properties"]["name"], "EPSG:25832");
+  const Json& feature = document["features"][0];
+  const ScanCoordinates scan(openings.frame);
+  const Vec2 wanted = scan.plan_to_scan({0.1, 2.0});
+  EXPECT_NEAR(feature["geometry"]["coordinates"][0][0].get<double>(), wanted.x(), 1e-6);
+  EXPECT_NEAR(feature["geometry"]["coordinates"][0][1].get<double>(), wanted.y(), 1e-6);
+  EXPECT_NEAR(feature["properties"]["head_z_m"].get<double>(), scan.to_scan(Vec3(0.55, 2.06, 2.05)).z(),
+              1e-3);
 }
 
 TEST_F(OpeningsIo, NoOpeningIsAFileToo) {

@@ -120,7 +120,7 @@ inline MadeCloud make_cloud(const ScanReader& reader, const ScanSettings& settin
                             const IngestParams& params = {}) {
   MadeCloud cloud;
   const TiledScan scan = tile_scan(reader, settings, params);
-  cloud.header = header_of(scan, reader.stations(), params);
+  cloud.header = header_of(scan, reader.stations(), reader.crs(), params);
   const SurfaceSummary summary =
       class_tiles(scan, params, [&, first = true](const CloudTile& part, bool last) mutable {
         cloud.largest_part = std::max(cloud.largest_part, part.size());

@@ -33,6 +33,15 @@ std::string openings_of(const Opening& opening) {
   return draw_openings("find_openings", two_squares(), first_is_empty(), {opening}, 0).bytes;
 }
 
+TEST(CellPictures, captions_say_heights_of_the_scan) {
+  DataTerms terms;
+  terms.reset(two_squares());
+  CellComplex complex = two_squares();
+  complex.frame.origin[2] = 512.5;
+  const Picture picture = draw_cells("graphcut", complex, terms, first_is_empty(), 0);
+  EXPECT_NE(picture.title.find("512.50 m to 514.50 m"), std::string::npos) << picture.title;
+}
+
 TEST(CellPictures, walls_are_drawn_where_labels_differ_and_only_there) {
   DataTerms terms;
   terms.reset(two_squares());

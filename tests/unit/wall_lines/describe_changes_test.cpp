@@ -24,7 +24,7 @@ TEST(DescribeChanges, NamesEveryChangedLineAndCountsAll) {
                                        make_line("w0002", {0, 3}, {4, 3})};
   const std::vector<WallLine> edited{make_line("e0001", {1, 1}, {2, 1}),
                                      make_line("w0001", {0, 0.5}, {4, 0.5})};
-  const auto text = describe_changes(compare_lines(detected, edited), detected, edited);
+  const auto text = describe_changes(compare_lines(detected, edited), detected, edited, {});
   ASSERT_EQ(text.size(), 4U);
   EXPECT_NE(text[0].find("w0001 moved by 500.0 mm"), std::string::npos);
   EXPECT_NE(text[1].find("e0001 (1.00 m, from (1.00, 1.00) to (2.00, 1.00))"), std::string::npos);
@@ -32,11 +32,21 @@ TEST(DescribeChanges, NamesEveryChangedLineAndCountsAll) {
   EXPECT_EQ(text[3], "0 as detected, 1 moved, 1 added, 1 deleted, 0 locked");
 }
 
+TEST(DescribeChanges, SaysPlacesInTheScansOwnCoordinates) {
+  const std::vector<WallLine> detected{make_line("w0001", {0, 0}, {4, 0})};
+  Frame frame;
+  frame.origin[0] = 691234.5;
+  frame.origin[1] = 5334567.25;
+  const auto text = describe_changes(compare_lines(detected, {}), detected, {}, frame);
+  EXPECT_NE(text[0].find("from (691234.50, 5334567.25) to (691238.50, 5334567.25)"), std::string::npos)
+      << text[0];
+}
+
 TEST(DescribeChanges, NamesEveryLockedLine) {
   std::vector<WallLine> lines{make_line("w0001", {0, 0}, {4, 0}), make_line("w0002", {0, 3}, {4, 3})};
   const std::vector<WallLine> detected = lines;
   lines[1].locked = true;
-  const auto text = describe_changes(compare_lines(detected, lines), detected, lines);
+  const auto text = describe_changes(compare_lines(detected, lines), detected, lines, {});
   ASSERT_EQ(text.size(), 2U);
   EXPECT_EQ(text[0], "locked:  w0002 (4.00 m, from (0.00, 3.00) to (4.00, 3.00))");
   EXPECT_EQ(text[1], "2 as detected, 0 moved, 0 added, 0 deleted, 1 locked");

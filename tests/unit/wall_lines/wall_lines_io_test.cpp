@@ -142,15 +142,15 @@ TEST(WallLinesIo, TheStrictReaderRefusesWhatAStageWouldNotWrite) {
     }
     return "none";
   };
-  EXPECT_EQ(code_with("\"schema_version\": \"1.0\"", "\"schema_version\": \"2.0\""),
+  EXPECT_EQ(code_with("\"schema_version\": \"1.1\"", "\"schema_version\": \"2.0\""),
             errors::kArtefactVersion.id);
   EXPECT_EQ(code_with("\"artefact\": \"wall_lines\"", "\"artefact\": \"cells\""), errors::kArtefactType.id);
   EXPECT_EQ(code_with("\"wall_id\": \"w0002\"", "\"wall_id\": \"w0001\""), errors::kArtefactDamaged.id);
   EXPECT_EQ(code_with("\"locked\": true", "\"locked\": \"yes\""), errors::kArtefactDamaged.id);
   EXPECT_EQ(code_with("LineString", "Polygon"), errors::kArtefactDamaged.id);
   EXPECT_EQ(code_with("\"roomcut\"", "\"room\""), errors::kArtefactDamaged.id);
-  EXPECT_EQ(code_with("[4.000000, 3.000000]", "[0.000000, 3.000000]"), errors::kArtefactDamaged.id);
-  EXPECT_EQ(code_with("4.000000, 3.000000", "1e308, 3.000000"), errors::kArtefactDamaged.id);
+  EXPECT_EQ(code_with("[500004.125000, 3.000000]", "[500000.125000, 3.000000]"), errors::kArtefactDamaged.id);
+  EXPECT_EQ(code_with("500004.125000, 3.000000", "1e308, 3.000000"), errors::kArtefactDamaged.id);
   EXPECT_EQ(code_with("\"rms_m\": 0.004000", "\"rms_m\": 1e999"), errors::kArtefactDamaged.id);
   EXPECT_EQ(code_with("\"levels\": [1,2]", "\"levels\": [1,2.5]"), errors::kArtefactDamaged.id);
   EXPECT_EQ(
@@ -163,7 +163,7 @@ TEST(WallLinesIo, AWallMovedInTheFileOfAStageIsRefusedAndTheUserSentToTheEdits) 
   const Folder folder;
   write_wall_lines(folder / "lines.geojson", example(), {});
   std::string text = text_of(folder / "lines.geojson");
-  text.replace(text.find("4.000000, 3.000000"), 8, "4.100000");
+  text.replace(text.find("500004.125000, 3.000000"), 13, "500004.225000");
   try {
     read_wall_lines(save(folder / "moved.geojson", text));
     FAIL() << "believed";

@@ -57,7 +57,7 @@ function showFace(run, plan, cell, face) {
 async function startEditing(run, plan) {
   const server = await findServer();
   const lines = (await server?.edit()) ?? run.lines.lines ?? run.lines.detected;
-  return lines ? new EditPanel(plan, server, lines) : null;
+  return lines ? new EditPanel(plan, server, lines, run) : null;
 }
 
 async function start() {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The cell complex (schemas/cells.md): a plan of convex faces, the same in every layer between neighbouring levels.
 
+import { ScanCoordinates } from "./coordinates.js";
+
 export class Complex {
-  /** @param block the block `cells` */
-  constructor(block) {
+  /** @param block the block `cells` @param scan where it lies in the scan's own coordinates */
+  constructor(block, scan = new ScanCoordinates(null)) {
     this.block = block;
+    this.scan = scan;
     this.levels = block.levels;
     this.layers = block.levels.length - 1;
     this.faces = block.face_offset.length - 1;
@@ -16,6 +19,10 @@ export class Complex {
     }
   }
 
+  /** "0.00 … 2.60 m", heights of the scan. */
+  heightsOf(layer) {
+    return [layer, layer + 1].map((k) => this.scan.captionHeight(this.levels[k]).toFixed(2)).join(" … ");
+  }
   height(layer) {
     return this.levels[layer + 1] - this.levels[layer];
   }

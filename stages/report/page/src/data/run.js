@@ -3,12 +3,14 @@
 
 import { loadBlock } from "./blocks.js";
 import { Complex } from "./complex.js";
+import { inLocal, ScanCoordinates } from "./coordinates.js";
 import { findStoreys } from "./storeys.js";
 
 /**
  * @typedef {object} Run
  * @property {object} facts      block `run`: levels, histogram, noise, density, frame, summary
- * @property {object} lines      block `lines`: detected, lines (accepted), refined, openings; GeoJSON
+ * @property {ScanCoordinates} scan  where local coordinates lie in the scan's own
+ * @property {object} lines      block `lines`: detected, lines (accepted), refined, openings; GeoJSON in local coordinates
  * @property {object[]} stages   block `logs`
  * @property {?object} model     block `model`
  * @property {?object} cloud     block `cloud`
@@ -22,15 +24,17 @@ export async function loadRun() {
   const [facts, lines, logs, model, cloud, cells] = await Promise.all(
     ["run", "lines", "logs", "model", "cloud", "cells"].map(loadBlock),
   );
-  const complex = cells ? new Complex(cells) : null;
+  const scan = new ScanCoordinates(facts?.frame ?? facts?.summary?.frame ?? lines?.detected?.roomcut?.frame);
+  const complex = cells ? new Complex(cells, scan) : null;
   return {
     facts: facts ?? {},
-    lines: lines ?? {},
+    scan,
+    lines: Object.fromEntries(["detected", "lines", "refined", "openings"].map((name) => [name, inLocal(lines?.[name], scan)])),
     stages: logs?.stages ?? [],
     model,
     cloud,
     complex,
-    storeys: complex ? findStoreys(complex, facts?.summary) : null,
+    storeys: complex ? findStoreys(complex, facts?.summary, scan) : null,
     box: model ? boxOf(model.vertices) : (facts?.bbox ?? [0, 0, 0, 1, 1, 1]),
   };
 }
@@ -53,7 +57,7 @@ export function slicesOf(run) {
       index,
       low,
       high,
-      name: `${index}: ${low.toFixed(2)} … ${high.toFixed(2)} m`,
+      name: `${index}: ${[low, high].map((z) => run.scan.captionHeight(z).toFixed(2)).join(" … ")} m`,
       layer: run.complex ? run.complex.layerBetween(low, high) : -1,
     };
   });

@@ -71,14 +71,14 @@ function placeOf(complex, plan) {
 }
 
 /** The number of each room in the summary: the room of the same storey with the nearest centre; -1 for none. */
-function numbersOf(rooms, summary) {
-  const [x0, y0] = summary?.frame?.origin ?? [0, 0];
+function numbersOf(rooms, summary, scan) {
   const left = new Map((summary?.rooms ?? []).map((entry, i) => [i, entry]));
   return rooms.map(({ storey, centre }) => {
     let best = -1;
     let least = Infinity;
     for (const [i, entry] of left) {
-      const distance = Math.hypot(entry.centre_m[0] - x0 - centre[0], entry.centre_m[1] - y0 - centre[1]);
+      const [x, y] = scan.toLocal([...entry.centre_m, entry.floor_z_m]);
+      const distance = Math.hypot(x - centre[0], y - centre[1]);
       if (entry.storey === storey && distance < least) {
         [best, least] = [i, distance];
       }
@@ -112,9 +112,8 @@ function neighbours(complex, cell) {
  * Storeys and rooms of the cells, numbered as in summary.json; no rooms when the two do not agree.
  * @returns {{storey: Int16Array, room: Int32Array, rooms: object[]}}
  */
-export function findStoreys(complex, summary) {
-  const origin = summary?.frame?.origin?.[2] ?? 0;
-  const floors = (summary?.storeys ?? []).map((s) => s.floor_z_m - origin);
+export function findStoreys(complex, summary, scan) {
+  const floors = (summary?.storeys ?? []).map((s) => scan.toLocal([...s.centre_m, s.floor_z_m])[2]);
   let gap = kDefaultGap;
   try {
     gap = JSON.parse(summary.provenance.params_json).storey_gap_m ?? gap;
@@ -123,7 +122,7 @@ export function findStoreys(complex, summary) {
   }
   const storey = storeyOfCells(complex, floors, gap);
   const found = roomsOf(complex, storey);
-  const numbers = numbersOf(found.rooms, summary);
+  const numbers = numbersOf(found.rooms, summary, scan);
   if (numbers.includes(-1) || numbers.length !== summary?.rooms?.length) {
     return { storey, room: found.room.fill(-1), rooms: [] };
   }

@@ -2,6 +2,8 @@
 // The wall lines being edited: a list that is replaced, never changed, so that undo is a step back. What is written keeps what
 // schemas/wall_lines.md asks for: ids, unknown properties, the member `roomcut` with the digest of the detection it began from.
 
+import { inLocal, inScan, ScanCoordinates } from "../data/coordinates.js";
+
 const kSame = 2e-6; // [m] accept_lines takes ends this near for unmoved
 
 /**
@@ -50,9 +52,11 @@ export function offsetBetween(from, to) {
 }
 
 export class LineDocument {
-  constructor(geojson) {
-    this.base = geojson;
-    this.original = linesOf(geojson);
+  /** @param geojson a file of lines @param scan of the run @param known its lines' features, local: see inLocal() */
+  constructor(geojson, scan = new ScanCoordinates(null), known = []) {
+    this.scan = scan;
+    this.base = inLocal(geojson, scan, known);
+    this.original = linesOf(this.base);
     this.lines = this.original;
     this.past = [];
     this.future = [];
@@ -136,11 +140,11 @@ export class LineDocument {
     return list;
   }
 
-  /** The text of wall_lines.geojson: one feature a line, six decimals. */
+  /** The text of wall_lines.geojson, in the scan's own coordinates: one feature a line, six decimals. */
   toText() {
-    const { features: _, ...members } = this.base;
+    const { features, ...members } = inScan({ ...this.base, features: this.lines.map((line) => this.featureOf(line)) }, this.scan);
     const head = Object.entries(members).map(([name, value]) => `${JSON.stringify(name)}: ${JSON.stringify(value)}`);
-    const rows = this.lines.map((line) => JSON.stringify(this.featureOf(line)));
+    const rows = features.map((feature) => JSON.stringify(feature));
     return `{\n${[...head, `"features": [\n${rows.join(",\n")}\n]`].join(",\n")}\n}\n`;
   }
 

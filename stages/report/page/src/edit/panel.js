@@ -11,11 +11,11 @@ const kPoll_ms = 400;
 const kKeep_ms = 60000; // a browser may take its time to begin a download
 
 export class EditPanel {
-  /** @param plan the plan's panel @param server the Server, or null @param geojson the lines to begin from */
-  constructor(plan, server, geojson) {
+  /** @param plan the plan's panel @param server the Server, or null @param geojson the lines to begin from @param run what the page shows */
+  constructor(plan, server, geojson, run) {
     this.plan = plan;
     this.server = server;
-    this.document = new LineDocument(geojson);
+    this.document = new LineDocument(geojson, run.scan, (run.lines.lines ?? run.lines.detected)?.features);
     this.tool = new EditTool(plan, this.document, () => this.update());
     this.buttons = {};
     this.build();

@@ -25,7 +25,7 @@ export function whyCell(complex, cell, room) {
     make("h3", { text: `Cell ${cell}: ${empty ? "empty" : "solid"}` }),
     make("p", {
       class: "quiet",
-      text: `${number(complex.areas[cell % complex.faces])} m² of the plan, ${number(complex.levels[layer])} … ${number(complex.levels[layer + 1])} m, ${number(complex.volume(cell))} m³, ${block.cell_points[cell]} points inside.`,
+      text: `${number(complex.areas[cell % complex.faces])} m² of the plan, ${complex.heightsOf(layer)} m, ${number(complex.volume(cell))} m³, ${block.cell_points[cell]} points inside.`,
     }),
     make("p", {
       text: `The evidence gives ${number(100 * beta, 1)} % for empty. Flipping this cell alone would cost ${number(block.margin[cell], 3)} m³ of energy.`,

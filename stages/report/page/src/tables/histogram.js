@@ -31,12 +31,13 @@ export function showHistogram(run) {
     make("p", {
       text: "Area of level surface per height. Orange marks: the peaks, heights of floors and ceilings. Blue: the structure slice around each. Yellow: the wall slices between.",
     }),
-    picture(levels, histogram, run.facts.histogram_area),
-    levelTable(levels, run.facts.frame?.origin?.[2] ?? 0),
+    picture(levels, histogram, run.facts.histogram_area, run.scan),
+    levelTable(levels, (z) => run.scan.captionHeight(z)),
   );
 }
 
-function picture(levels, { z0, bin_m: bin }, bins) {
+/** The drawing; what it says are heights of the scan. */
+function picture(levels, { z0, bin_m: bin }, bins, scan) {
   const top = z0 + bin * bins.length;
   const most = Math.max(1e-9, ...bins);
   const y = (z) => kTop + ((top - z) / (top - z0)) * kHeight;
@@ -53,21 +54,24 @@ function picture(levels, { z0, bin_m: bin }, bins) {
     drawing.append(svg("line", { x1: kLeft + kBars - 40, x2: kLeft + kBars, y1: y(level.z), y2: y(level.z), stroke: "#d55e00", "stroke-width": 2 }));
     const at = Math.min(y(level.z) + 4, last - 13); // labels of close peaks do not overlap
     last = at;
-    drawing.append(svg("text", { x: kLeft + kBars + 8, y: at, fill: "#b34700" }, `${number(level.z, 3)} m: ${level.cap ? "cap" : level.step ? "step" : `${number(level.area_m2, 0)} m²`}`));
+    drawing.append(svg("text", { x: kLeft + kBars + 8, y: at, fill: "#b34700" }, `${number(scan.captionHeight(level.z), 3)} m: ${level.cap ? "cap" : level.step ? "step" : `${number(level.area_m2, 0)} m²`}`));
   }
   drawing.append(svg("text", { x: kLeft, y: kTop + kHeight + 20 }, `0`), svg("text", { x: kLeft + kBars - 40, y: kTop + kHeight + 20 }, `${number(most, 0)} m² per ${number(1e3 * bin, 0)} mm`));
-  for (let z = Math.ceil(z0); z <= top; z += top - z0 > 30 ? 5 : 1) {
-    drawing.append(svg("text", { x: kLeft - 8, y: y(z) + 4, "text-anchor": "end" }, `${z} m`), svg("line", { x1: kLeft - 5, x2: kLeft, y1: y(z), y2: y(z), stroke: "#5b6770" }));
+  const step = top - z0 > 30 ? 5 : 1;
+  const ground = scan.captionHeight(0);
+  for (let height = Math.ceil((z0 + ground) / step) * step; height <= top + ground; height += step) {
+    const at = y(height - ground);
+    drawing.append(svg("text", { x: kLeft - 8, y: at + 4, "text-anchor": "end" }, `${height} m`), svg("line", { x1: kLeft - 5, x2: kLeft, y1: at, y2: at, stroke: "#5b6770" }));
   }
   return drawing;
 }
 
-function levelTable(levels, origin) {
+function levelTable(levels, heightOf) {
   const head = ["Level", "Height in the scan [m]", "Structure slice [m]", "Level surface [m²]", "Largest piece [m²]", "Wall slice above"];
   const rows = levels.map((level, i) => [
     String(i),
-    number(level.z + origin, 3),
-    `${number(level.lo + origin, 3)} … ${number(level.hi + origin, 3)}`,
+    number(heightOf(level.z), 3),
+    `${number(heightOf(level.lo), 3)} … ${number(heightOf(level.hi), 3)}`,
     level.cap ? "cap: none seen" : level.step ? "step of a slope" : number(level.area_m2, 1),
     number(level.component_m2, 1),
     i + 1 < levels.length ? `${number(levels[i + 1].z - level.z)} m` : "",

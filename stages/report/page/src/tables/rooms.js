@@ -72,6 +72,19 @@ function openingTexts(openings) {
   return { rooms: (i) => openings[i].rooms.join(" – ") };
 }
 
+/** In which coordinates the figures of the summary and the files are. */
+function frameText(frame) {
+  const [x, y, z] = frame.origin;
+  const level = Math.hypot(frame.level?.[0] ?? 0, frame.level?.[1] ?? 0);
+  const parts = [`Heights, and the files of the work folder, are in the scan's own coordinates (metres${frame.unit === "m" ? "" : `; the scan is in ${frame.unit}`}).`];
+  parts.push(`The plans and the model on this page have their origin at ${x}, ${y}, ${z}.`);
+  if (level > 0) {
+    parts.push(`The scan leans by ${number((Math.asin(level) * 180) / Math.PI, 2)}° and was levelled; what is written is turned back, heights hold at the centre of each room.`);
+  }
+  parts.push(frame.crs ? `Coordinate system of the scan: ${frame.crs}` : "The scan names no coordinate system.");
+  return parts.join(" ");
+}
+
 export function showRooms(run) {
   const host = byId("rooms");
   const { summary } = run.facts;
@@ -92,6 +105,9 @@ export function showRooms(run) {
   }
   if (summary.openings?.length > 0) {
     host.append(make("h3", { text: "Openings" }), listTable(summary.openings, openingTexts(summary.openings)));
+  }
+  if (summary.frame) {
+    host.append(make("p", { class: "quiet", id: "frame", text: frameText(summary.frame) }));
   }
   for (const [title, key] of [["Totals", "totals"], ["Checks of the mesh", "mesh"], ["Counts", "counts"], ["Energy of the labelling", "energy"]]) {
     if (summary[key]) {
