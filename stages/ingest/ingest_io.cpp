@@ -96,7 +96,7 @@ void report(StageRun& run, const TiledScan& scan, const SurfaceSummary& summary,
 StageInfo ingest_info() {
   StageInfo info;
   info.name = "ingest";
-  info.revision = 4;
+  info.revision = 5;
   info.summary = "Reads a raw scan; finds surface class, azimuth, noise and density from sums in voxels.";
   info.inputs = {
       {"scan", "", "The scan: PLY, E57, LAS, LAZ, PCD, PTX or text (.xyz .txt .csv .pts .asc)"},
@@ -146,7 +146,7 @@ MadeCloud make_cloud(StageRun& run, const ScanReader& reader, const ScanSettings
                      const IngestParams& params, const std::vector<Vec3>& stations,
                      std::shared_future<std::string> digest) {
   MadeCloud cloud;
-  Progress reading = run.progress("reading blocks", reader.blocks());
+  Progress reading = run.progress("reading blocks", (settings.middle ? 1 : 2) * reader.blocks());
   cloud.scan = tile_scan(reader, settings, params, [&](std::uint64_t blocks) { reading.advance(blocks); });
   run.set_input_digest("scan", digest.get());
   cloud.writer = std::make_unique<CloudWriter>(run.output("cloud"), run.provenance(),
@@ -219,8 +219,9 @@ void run_ingest(StageRun& run, const IngestParams& params) {
   MadeCloud cloud = make_cloud(run, *reader, settings, params, stations, digest);
   const Lean lean = lean_of(cloud.summary.estimates.lean);
   if (wants_levelling(run, lean)) {
-    cloud = {};  // what was written is not published
+    settings.middle = cloud.scan.middle;
     settings.level = lean.up;
+    cloud = {};  // what was written is not published
     cloud = make_cloud(run, *reader, settings, params, stations, digest);
     run.warn("the scan leans by " + degrees_text(lean.degrees) +
              "; it was levelled by its floors, and the model is turned back (--level no: make LEVEL=no)");
