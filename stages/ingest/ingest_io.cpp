@@ -139,6 +139,7 @@ struct MadeCloud {
   TiledScan scan;
   SurfaceSummary summary;
   AxisAreas areas;
+  FloorFit floors;
   std::unique_ptr<CloudWriter> writer;
 };
 
@@ -156,6 +157,7 @@ MadeCloud make_cloud(StageRun& run, const ScanReader& reader, const ScanSettings
       cloud.scan, params,
       [&](const CloudTile& part, bool last) {
         cloud.areas.add(part);
+        cloud.floors.add(part);
         cloud.writer->append(part, last);
       },
       [&](std::uint64_t points) { classing.advance(points); });
@@ -217,7 +219,7 @@ void run_ingest(StageRun& run, const IngestParams& params) {
   settings.scratch_folder = folder;
   settings.name = run.input("scan").string();
   MadeCloud cloud = make_cloud(run, *reader, settings, params, stations, digest);
-  const Lean lean = lean_of(cloud.summary.estimates.lean);
+  const Lean lean = lean_of(cloud.summary.estimates.lean, cloud.floors);
   if (wants_levelling(run, lean)) {
     settings.middle = cloud.scan.middle;
     settings.level = lean.up;

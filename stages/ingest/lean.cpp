@@ -142,8 +142,8 @@ std::array<double, 2> LeanSums::walls() const {
   return {-(ss * cl - cs * sl) / determinant, -(cc * sl - cs * cl) / determinant};
 }
 
-Lean lean_of(const LeanSums& sums) {
-  const std::array<double, 2> floors = sums.floors();
+Lean lean_of(const LeanSums& sums, const FloorFit& fit) {
+  const std::array<double, 2> floors = fit.slope(sums.floors());
   const std::array<double, 2> walls = sums.walls();
   const double steep = std::hypot(floors[0], floors[1]);
   const double length = std::hypot(steep, 1.0);

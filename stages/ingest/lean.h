@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "stages/ingest/floor_fit.h"
+
 namespace roomcut {
 
 /// How a plane leans, in units of 2^-15: of a level one the slope of its normal along x and y; of an upright
@@ -43,6 +45,7 @@ struct Lean {
   bool walls_agree = false;  ///< the walls lean more with the floors than with z: no ramp, but the scan
 };
 
-Lean lean_of(const LeanSums& sums);
+/// By the floors' normals, and more exactly by the heights in `fit`.
+Lean lean_of(const LeanSums& sums, const FloorFit& fit = {});
 
 }  // namespace roomcut
