@@ -16,10 +16,11 @@ constexpr double kLayer_m = 0.4;  // a floor at 5 degrees rises 7 cm in a square
 constexpr double kLengthSteps = 1 << 14;
 constexpr double kAreaSteps = 1 << 30;
 constexpr std::int64_t kFewestPoints = 20;
-constexpr double kSmallest_m2 = 0.2;  // of a square
-constexpr double kFewest_m2 = 4;      // of all squares
-constexpr double kFollows_m = 0.01;   // from one square to the next
-constexpr double kScale_m = 0.005;    // of the Cauchy weight
+constexpr double kSmallest_m2 = 0.2;       // of a square
+constexpr double kFewest_m2 = 4;           // of all squares
+constexpr double kFollows_m = 0.01;        // from one square to the next
+constexpr double kSmallestScale_m = 3e-4;  // of the Cauchy weight
+constexpr double kScaleOfMedian = 2;
 constexpr int kRounds = 10;
 constexpr double kCondition = 0.02;  // a strip says nothing across it
 constexpr double kFarthest = 0.1 * std::numbers::pi / 180;
@@ -30,6 +31,19 @@ std::size_t root_of(std::vector<std::size_t>& parent, std::size_t i) {
     i = parent[i];
   }
   return i;
+}
+
+/// Of the Cauchy weight: a good floor's squares lie within it, those with a skirting or a carpet do not.
+double scale_of(std::vector<double> residual) {
+  if (residual.empty()) {
+    return kSmallestScale_m;
+  }
+  for (double& value : residual) {
+    value = std::abs(value);
+  }
+  const auto middle = residual.begin() + static_cast<std::ptrdiff_t>(residual.size() / 2);
+  std::nth_element(residual.begin(), middle, residual.end());
+  return std::max(kSmallestScale_m, kScaleOfMedian * *middle);
 }
 
 }  // namespace
@@ -122,11 +136,12 @@ void FloorFit::join(std::vector<Square>& all, const Slope& slope) {
 /// One round of least squares with the weights that the residuals ask for, which are renewed. Returns false
 /// when the squares say too little.
 bool FloorFit::solve(const std::vector<Square>& all, std::vector<double>& residual, Slope& slope) {
+  const double scale = scale_of(residual);
   std::vector<double> weight(all.size());
   std::vector<double> total(all.size(), 0);  // of a surface
   std::vector<Vec3> middle(all.size(), Vec3(0, 0, 0));
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const double u = residual[i] / kScale_m;
+    const double u = residual[i] / scale;
     weight[i] = all[i].area_m2 / (1 + u * u);
     total[all[i].surface] += weight[i];
     middle[all[i].surface] += weight[i] * all[i].mean;

@@ -23,7 +23,7 @@ class FloorFit {
 
   /// The slope of up, x and y, near `slope`, which LeanSums::floors() gives: least squares with an offset of
   /// its own for every surface whose squares follow each other by `slope` within a centimetre, robust
-  /// (Cauchy, 5 mm). `slope` itself where less than 4 m^2 or a strip is left, or when the result is 0.1° or
+  /// (Cauchy). `slope` itself where less than 4 m^2 or a strip is left, or when the result is 0.1° or
   /// more from it. Deterministic.
   Slope slope(const Slope& slope) const;
 

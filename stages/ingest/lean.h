@@ -29,13 +29,16 @@ class LeanSums {
   /// Where up is, as the level planes say: x and y of its slope. Of several groups of planes, as a floor and
   /// a roof make them, the most level one of at least a quarter of them. 0 0 when there are fewer than 40.
   std::array<double, 2> floors() const;
-  /// Likewise as the upright planes say; 0 0 without walls in two directions.
-  std::array<double, 2> walls() const;
+  /// Whether upright planes stand along up as `slope` says rather than along z: the sum of their distances,
+  /// each no more than 3°, so that clutter has little say. Never when they say nothing, as walls across it.
+  bool walls_stand_along(const std::array<double, 2>& slope) const;
 
  private:
   static constexpr int kBins = 512;  // of 2^-11, 0.028 degrees: slopes up to 0.125
   std::array<std::array<std::uint32_t, kBins>, 2> floors_{};
-  std::array<std::int64_t, 5> walls_{};  ///< of c c, c s, s s, c lean, s lean for normals (c, s)
+  static constexpr int kWallBins = 256;  // of 2^-10
+  static constexpr int kAzimuths = 32;
+  std::array<std::array<std::uint32_t, kWallBins>, kAzimuths> walls_{};
 };
 
 /// What a scan's planes say of its being level.
