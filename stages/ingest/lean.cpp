@@ -19,6 +19,7 @@ constexpr double kGroupShare = 0.25;
 constexpr std::uint64_t kFewestPlanes = 40;
 constexpr int kWallBinShift = 5;  // 2^-15 to 2^-10
 constexpr double kFarthestWall = 0.05;
+constexpr double kClear = 2;  // standard errors
 
 std::int16_t fixed(double slope) {
   return static_cast<std::int16_t>(std::lround(std::clamp(slope, -0.99, 0.99) * kOne));
@@ -130,8 +131,8 @@ std::array<double, 2> LeanSums::floors() const {
 }
 
 bool LeanSums::walls_stand_along(const std::array<double, 2>& slope) const {
-  std::uint64_t planes = 0;
   double gain = 0;  // of distance, when up is along the slope
+  double squares = 0;
   for (std::size_t direction = 0; direction < walls_.size(); ++direction) {
     const double azimuth = (static_cast<double>(direction) + 0.5) * std::numbers::pi / kAzimuths;
     const double along = -(std::cos(azimuth) * slope[0] + std::sin(azimuth) * slope[1]);
@@ -140,10 +141,10 @@ bool LeanSums::walls_stand_along(const std::array<double, 2>& slope) const {
       const double less =
           std::min(std::abs(lean), kFarthestWall) - std::min(std::abs(lean - along), kFarthestWall);
       gain += walls_[direction][bin] * less;
-      planes += walls_[direction][bin];
+      squares += walls_[direction][bin] * less * less;
     }
   }
-  return planes >= kFewestPlanes && gain > 0;
+  return gain > kClear * std::sqrt(squares);
 }
 
 Lean lean_of(const LeanSums& sums, const FloorFit& fit) {

@@ -30,7 +30,8 @@ class LeanSums {
   /// a roof make them, the most level one of at least a quarter of them. 0 0 when there are fewer than 40.
   std::array<double, 2> floors() const;
   /// Whether upright planes stand along up as `slope` says rather than along z: the sum of their distances,
-  /// each no more than 3°, so that clutter has little say. Never when they say nothing, as walls across it.
+  /// each no more than 3°, so that clutter has little say, is less by more than twice its standard error.
+  /// Never when they say nothing, as walls across it.
   bool walls_stand_along(const std::array<double, 2>& slope) const;
 
  private:
