@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
   DetectLinesParams params;
   const StageInfo info{
       "detect_lines",
-      5,
+      6,
       "Finds the wall lines of all wall slices with a Hough transform.",
       {{"slices", "20_slice/slices.h5", "levels and wall slices, from slice"}},
       {{"lines-out", "30_detect_lines/wall_lines.geojson", "wall lines, to be edited or taken as they are"},
