@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 #include <set>
 
 #include "common/errors/codes.h"
@@ -47,13 +48,15 @@ Rules derive_rules(const Slices& slices, const WallCells& cells, const DetectLin
   rules.merge.distance_m = resolve(params.merge_m, merge, "merge_m", "3.5 x noise, 2 ... 6 cm", choices);
   rules.merge.angle_rad = params.merge_angle_rad;
 
-  const auto [x0, x1] = std::minmax_element(cells.x.begin(), cells.x.end());
-  const auto [y0, y1] = std::minmax_element(cells.y.begin(), cells.y.end());
-  // Whole metres and a preferred number: the accumulator does not move with the outermost cell.
-  rules.centre = {std::round(0.5 * (*x0 + *x1)), std::round(0.5 * (*y0 + *y1))};
-  rules.radius_m =
-      preferred_number_above(std::hypot(std::max(*x1 - rules.centre.x(), rules.centre.x() - *x0),
-                                        std::max(*y1 - rules.centre.y(), rules.centre.y() - *y0)));
+  // The mean and a preferred number: the accumulator does not move with the outermost cell.
+  rules.centre = {std::accumulate(cells.x.begin(), cells.x.end(), 0.0),
+                  std::accumulate(cells.y.begin(), cells.y.end(), 0.0)};
+  rules.centre /= static_cast<double>(cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    rules.radius_m =
+        std::max(rules.radius_m, std::hypot(cells.x[i] - rules.centre.x(), cells.y[i] - rules.centre.y()));
+  }
+  rules.radius_m = preferred_number_above(std::max(1.0, rules.radius_m));
   // Two faces 8 cm apart must not blur into each other over the building's half diagonal.
   const double angle = std::clamp(0.08 / (2 * std::max(1.0, rules.radius_m)) / kDegree, 0.1, 0.25);
   rules.angle_step = kDegree * resolve(params.hough_angle_deg, angle, "hough_angle_deg",
