@@ -3,6 +3,7 @@
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
@@ -74,22 +75,22 @@ void add_points(const ScanBlock& block, const Vec3& centre, double reach, Sums& 
 void for_blocks(const ScanReader& reader, const VisitBlock& visit) {
   tbb::enumerable_thread_specific<ScanBlock> per_thread;
   FirstError error;
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, reader.blocks(), 1),
-      [&](const tbb::blocked_range<std::size_t>& range) {
-        for (std::size_t i = range.begin(); i < range.end() && !error.before(i); ++i) {
-          try {
-            ScanBlock& block = per_thread.local();
-            block.no_returns = 0;
-            reader.read(i, block);
-            block.drop_no_returns();
-            visit(i, block);
-          } catch (...) {
-            error.note(i);
-          }
-        }
-      },
-      tbb::simple_partitioner());
+  std::atomic<std::size_t> next{
+      0};  // in file order, so that what was just read from the disk, or decoded, is near
+  const auto visit_next = [&](int /*worker*/) {
+    for (std::size_t i = next++; i < reader.blocks() && !error.before(i); i = next++) {
+      try {
+        ScanBlock& block = per_thread.local();
+        block.no_returns = 0;
+        reader.read(i, block);
+        block.drop_no_returns();
+        visit(i, block);
+      } catch (...) {
+        error.note(i);
+      }
+    }
+  };
+  tbb::parallel_for(0, tbb::this_task_arena::max_concurrency(), visit_next, tbb::simple_partitioner());
   error.rethrow();
 }
 
