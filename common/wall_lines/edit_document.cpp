@@ -15,7 +15,7 @@ namespace roomcut {
 
 namespace {
 
-constexpr double kSameOrigin_m = 1e-6;
+constexpr double kSameOrigin_m = 1e-4;  // a rescan with a few points more has another mean
 constexpr std::size_t kMostDuplicates =
     20;  ///< reported; who has more has a broken program, not more to learn
 

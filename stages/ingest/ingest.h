@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ struct ScanSettings {
   std::string up = "z";
   std::array<double, 3> level{0, 0,
                               1};  ///< up in the scan's axes, after `up`: it is turned so that this is z
+  std::optional<Vec3> middle;      ///< scan_middle(), when it is known already
   std::uint64_t memory_bytes = std::uint64_t{256} << 20;  ///< points held in memory between the passes
   std::filesystem::path scratch_folder;                   ///< for points beyond the memory budget
   std::string name;                                       ///< of the scan, for messages
@@ -44,6 +46,7 @@ using Advance = std::function<void(std::uint64_t)>;
 /// The scan after the first pass: its points sorted by tile.
 struct TiledScan {
   ScanFrame frame;
+  Vec3 middle;  ///< scan_middle()
   std::unique_ptr<TileStore> store;
   std::vector<KeptTile> tiles;  ///< by (iy, ix)
   IngestCounts counts;
@@ -52,9 +55,10 @@ struct TiledScan {
   std::uint64_t band_points = 0;  ///< as in ScanSettings
 };
 
-/// First pass: reads every block once, in parallel, and sorts its points into tiles. `advance(1)` is called
-/// per block. Errors: those of the reader (of the first faulty block), kScanNoPoints, kScanTooFewPoints,
-/// kScanExtent, kScanTooCoarse, kCannotWrite. The result does not depend on the number of threads.
+/// First pass: reads every block in parallel, once for the scan's middle and once more to sort its points
+/// into tiles. `advance(1)` is called per block and reading. Errors: those of the reader (of the first faulty
+/// block), kScanNoPoints, kScanTooFewPoints, kScanExtent, kScanTooCoarse, kCannotWrite. The result does not
+/// depend on the number of threads.
 TiledScan tile_scan(const ScanReader& reader, const ScanSettings& settings, const IngestParams& params,
                     const Advance& advance = {});
 

@@ -139,6 +139,7 @@ struct MadeCloud {
   TiledScan scan;
   SurfaceSummary summary;
   AxisAreas areas;
+  FloorFit floors;
   std::unique_ptr<CloudWriter> writer;
 };
 
@@ -146,7 +147,7 @@ MadeCloud make_cloud(StageRun& run, const ScanReader& reader, const ScanSettings
                      const IngestParams& params, const std::vector<Vec3>& stations,
                      std::shared_future<std::string> digest) {
   MadeCloud cloud;
-  Progress reading = run.progress("reading blocks", reader.blocks());
+  Progress reading = run.progress("reading blocks", (settings.middle ? 1 : 2) * reader.blocks());
   cloud.scan = tile_scan(reader, settings, params, [&](std::uint64_t blocks) { reading.advance(blocks); });
   run.set_input_digest("scan", digest.get());
   cloud.writer = std::make_unique<CloudWriter>(run.output("cloud"), run.provenance(),
@@ -156,6 +157,7 @@ MadeCloud make_cloud(StageRun& run, const ScanReader& reader, const ScanSettings
       cloud.scan, params,
       [&](const CloudTile& part, bool last) {
         cloud.areas.add(part);
+        cloud.floors.add(part);
         cloud.writer->append(part, last);
       },
       [&](std::uint64_t points) { classing.advance(points); });
@@ -220,10 +222,11 @@ void run_ingest(StageRun& run, const IngestParams& params) {
   for (const std::string& note : reader->late_notes()) {
     run.note(note);
   }
-  const Lean lean = lean_of(cloud.summary.estimates.lean);
+  const Lean lean = lean_of(cloud.summary.estimates.lean, cloud.floors);
   if (wants_levelling(run, lean)) {
-    cloud = {};  // what was written is not published
+    settings.middle = cloud.scan.middle;
     settings.level = lean.up;
+    cloud = {};  // what was written is not published
     cloud = make_cloud(run, *reader, settings, params, stations, digest);
     run.warn("the scan leans by " + degrees_text(lean.degrees) +
              "; it was levelled by its floors, and the model is turned back (--level no: make LEVEL=no)");

@@ -17,8 +17,9 @@ constexpr int kMedianWindow = 36;  // 1 degree
 constexpr int kRounds = 20;        // of moving the window to its median
 constexpr double kGroupShare = 0.25;
 constexpr std::uint64_t kFewestPlanes = 40;
-constexpr double kDirection = 1 << 10;  // of a wall's normal, so that its products are whole numbers
-constexpr double kCondition = 0.02;     // walls of one direction say nothing across it
+constexpr int kWallBinShift = 5;  // 2^-15 to 2^-10
+constexpr double kFarthestWall = 0.05;
+constexpr double kClear = 2;  // standard errors
 
 std::int16_t fixed(double slope) {
   return static_cast<std::int16_t>(std::lround(std::clamp(slope, -0.99, 0.99) * kOne));
@@ -91,11 +92,11 @@ void LeanSums::add_level(const PlaneLean& lean) {
 }
 
 void LeanSums::add_wall(const PlaneLean& lean, double azimuth) {
-  const auto c = std::llround(kDirection * std::cos(azimuth));
-  const auto s = std::llround(kDirection * std::sin(azimuth));
-  const std::array<std::int64_t, 5> terms{c * c, c * s, s * s, c * lean.x, s * lean.x};
-  for (std::size_t i = 0; i < terms.size(); ++i) {
-    walls_[i] += terms[i];
+  const int bin = (lean.x >> kWallBinShift) + kWallBins / 2;
+  const int direction = static_cast<int>(azimuth / std::numbers::pi * kAzimuths);
+  if (bin >= 0 && bin < kWallBins) {
+    ++walls_[static_cast<std::size_t>(std::clamp(direction, 0, kAzimuths - 1))]
+            [static_cast<std::size_t>(bin)];
   }
 }
 
@@ -105,8 +106,10 @@ void LeanSums::add(const LeanSums& other) {
       floors_[axis][i] += other.floors_[axis][i];
     }
   }
-  for (std::size_t i = 0; i < walls_.size(); ++i) {
-    walls_[i] += other.walls_[i];
+  for (std::size_t direction = 0; direction < walls_.size(); ++direction) {
+    for (std::size_t i = 0; i < kWallBins; ++i) {
+      walls_[direction][i] += other.walls_[direction][i];
+    }
   }
 }
 
@@ -127,30 +130,31 @@ std::array<double, 2> LeanSums::floors() const {
   return slope;
 }
 
-std::array<double, 2> LeanSums::walls() const {
-  // A wall stands along up when its normal's slope is −(c up.x + s up.y): least squares.
-  const double scale = kDirection * kDirection;
-  const double cc = static_cast<double>(walls_[0]) / scale;
-  const double cs = static_cast<double>(walls_[1]) / scale;
-  const double ss = static_cast<double>(walls_[2]) / scale;
-  const double cl = static_cast<double>(walls_[3]) / (kDirection * kOne);
-  const double sl = static_cast<double>(walls_[4]) / (kDirection * kOne);
-  const double determinant = cc * ss - cs * cs;
-  if (cc + ss < static_cast<double>(kFewestPlanes) || determinant < kCondition * (cc + ss) * (cc + ss)) {
-    return {0, 0};
+bool LeanSums::walls_stand_along(const std::array<double, 2>& slope) const {
+  double gain = 0;  // of distance, when up is along the slope
+  double squares = 0;
+  for (std::size_t direction = 0; direction < walls_.size(); ++direction) {
+    const double azimuth = (static_cast<double>(direction) + 0.5) * std::numbers::pi / kAzimuths;
+    const double along = -(std::cos(azimuth) * slope[0] + std::sin(azimuth) * slope[1]);
+    for (std::size_t bin = 0; bin < kWallBins; ++bin) {
+      const double lean = (static_cast<double>(bin) + 0.5 - kWallBins / 2.0) * (1 << kWallBinShift) / kOne;
+      const double less =
+          std::min(std::abs(lean), kFarthestWall) - std::min(std::abs(lean - along), kFarthestWall);
+      gain += walls_[direction][bin] * less;
+      squares += walls_[direction][bin] * less * less;
+    }
   }
-  return {-(ss * cl - cs * sl) / determinant, -(cc * sl - cs * cl) / determinant};
+  return gain > kClear * std::sqrt(squares);
 }
 
-Lean lean_of(const LeanSums& sums) {
-  const std::array<double, 2> floors = sums.floors();
-  const std::array<double, 2> walls = sums.walls();
+Lean lean_of(const LeanSums& sums, const FloorFit& fit) {
+  const std::array<double, 2> floors = fit.slope(sums.floors());
   const double steep = std::hypot(floors[0], floors[1]);
   const double length = std::hypot(steep, 1.0);
   Lean lean;
   lean.up = {floors[0] / length, floors[1] / length, 1 / length};
   lean.degrees = std::atan(steep) * 180 / std::numbers::pi;
-  lean.walls_agree = std::hypot(walls[0] - floors[0], walls[1] - floors[1]) < std::hypot(walls[0], walls[1]);
+  lean.walls_agree = sums.walls_stand_along(floors);
   return lean;
 }
 

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "stages/ingest/floor_fit.h"
+
 namespace roomcut {
 
 /// How a plane leans, in units of 2^-15: of a level one the slope of its normal along x and y; of an upright
@@ -27,13 +29,17 @@ class LeanSums {
   /// Where up is, as the level planes say: x and y of its slope. Of several groups of planes, as a floor and
   /// a roof make them, the most level one of at least a quarter of them. 0 0 when there are fewer than 40.
   std::array<double, 2> floors() const;
-  /// Likewise as the upright planes say; 0 0 without walls in two directions.
-  std::array<double, 2> walls() const;
+  /// Whether upright planes stand along up as `slope` says rather than along z: the sum of their distances,
+  /// each no more than 3°, so that clutter has little say, is less by more than twice its standard error.
+  /// Never when they say nothing, as walls across it.
+  bool walls_stand_along(const std::array<double, 2>& slope) const;
 
  private:
   static constexpr int kBins = 512;  // of 2^-11, 0.028 degrees: slopes up to 0.125
   std::array<std::array<std::uint32_t, kBins>, 2> floors_{};
-  std::array<std::int64_t, 5> walls_{};  ///< of c c, c s, s s, c lean, s lean for normals (c, s)
+  static constexpr int kWallBins = 256;  // of 2^-10
+  static constexpr int kAzimuths = 32;
+  std::array<std::array<std::uint32_t, kWallBins>, kAzimuths> walls_{};
 };
 
 /// What a scan's planes say of its being level.
@@ -43,6 +49,7 @@ struct Lean {
   bool walls_agree = false;  ///< the walls lean more with the floors than with z: no ramp, but the scan
 };
 
-Lean lean_of(const LeanSums& sums);
+/// By the floors' normals, and more exactly by the heights in `fit`.
+Lean lean_of(const LeanSums& sums, const FloorFit& fit = {});
 
 }  // namespace roomcut

@@ -13,10 +13,7 @@ namespace roomcut {
 
 namespace {
 
-constexpr double kNearOrigin_m = 1000;  // float32 has a spacing of 0.06 mm there
-constexpr double kOriginStep_m = 100;
-constexpr double kLevelledStep_m = 1;  // the plan of a levelled scan is that at the height of its origin
-constexpr double kLargest_m = 1e9;     // beyond it a coordinate is a ghost in any frame
+constexpr double kOriginSteps = 1e6;  // per metre
 
 struct Axes {
   std::array<int, 3> axis;
@@ -32,35 +29,6 @@ const Axes& axes_of(const std::string& up) {
     throw std::invalid_argument("up axis '" + up + "'");
   }
   return found->second;
-}
-
-double metres_of(const std::string& unit) {
-  static const std::map<std::string, double> kUnits{{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"ft", 0.3048}};
-  const auto found = kUnits.find(unit);
-  if (found == kUnits.end()) {
-    throw std::invalid_argument("unit '" + unit + "'");
-  }
-  return found->second;
-}
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/// Medians of the finite points; zeros when there is none.
-Vec3 median_point(const ScanBlock& sample, const ScanFrame& frame) {
-  std::array<std::vector<double>, 3> values;
-  for (std::size_t i = 0; i < sample.size(); ++i) {
-    const Vec3 point = frame.turned(Vec3(sample.x[i], sample.y[i], sample.z[i]));
-    if (point.allFinite() && point.cwiseAbs().maxCoeff() < kLargest_m) {
-      for (int k = 0; k < 3; ++k) {
-        values[static_cast<std::size_t>(k)].push_back(point[k]);
-      }
-    }
-  }
-  return values[0].empty() ? Vec3(0, 0, 0) : Vec3(median(values[0]), median(values[1]), median(values[2]));
 }
 
 /// One axis of the file, ready to be applied to many points.
@@ -100,13 +68,22 @@ void resize(LocalPoints& local, std::size_t points, bool normals) {
 
 }  // namespace
 
+double metres_of(const std::string& unit) {
+  static const std::map<std::string, double> kUnits{{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"ft", 0.3048}};
+  const auto found = kUnits.find(unit);
+  if (found == kUnits.end()) {
+    throw std::invalid_argument("unit '" + unit + "'");
+  }
+  return found->second;
+}
+
 Vec3 ScanFrame::turned(const Vec3& file) const {
   return {sign[0] * metres * file[axis[0]], sign[1] * metres * file[axis[1]],
           sign[2] * metres * file[axis[2]]};
 }
 
-ScanFrame choose_frame(const ScanBlock& sample, const std::string& unit, const std::string& up,
-                       double voxel_edge_m, const std::array<double, 3>& up_in_scan) {
+ScanFrame choose_frame(const Vec3& middle, const std::string& unit, const std::string& up,
+                       const std::array<double, 3>& up_in_scan) {
   const Axes& axes = axes_of(up);
   ScanFrame result;
   result.frame.unit = unit;
@@ -114,24 +91,13 @@ ScanFrame choose_frame(const ScanBlock& sample, const std::string& unit, const s
   result.metres = metres_of(unit);
   result.axis = axes.axis;
   result.sign = axes.sign;
-  const Vec3 middle = median_point(sample, result);
   std::copy(up_in_scan.begin(), up_in_scan.end(), result.frame.level);
   result.level = level_turn(result.frame.level);
-  const double tile = UnitScale(voxel_edge_m).tile_edge_m();
+  const Vec3 origin = result.turned(middle);
   for (int k = 0; k < 3; ++k) {
     const auto axis = static_cast<std::size_t>(k);
-    const bool levelled = result.frame.levelled();
-    if (levelled || std::abs(middle[k]) >= kNearOrigin_m) {
-      const double step = levelled ? kLevelledStep_m : kOriginStep_m;
-      result.frame.origin[axis] = std::round(middle[k] / step) * step;
-    }
-  }
-  const Vec3 origin(result.frame.origin[0], result.frame.origin[1], result.frame.origin[2]);
-  const Vec3 local = result.level * (middle - origin);
-  for (int k = 0; k < 3; ++k) {
-    const int half = (k < 2 ? fixed_grid::kWindowTiles : fixed_grid::kWindowLayers) / 2;
-    result.window[static_cast<std::size_t>(k)] =
-        static_cast<std::int32_t>(std::floor(local[k] / tile)) - half;
+    result.frame.origin[axis] = std::round(origin[k] * kOriginSteps) / kOriginSteps;
+    result.window[axis] = -(k < 2 ? fixed_grid::kWindowTiles : fixed_grid::kWindowLayers) / 2;
   }
   return result;
 }

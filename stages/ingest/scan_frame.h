@@ -40,13 +40,17 @@ struct LocalPoints {
   std::uint64_t far = 0;  ///< outside the window
 };
 
+/// Metres in a unit m, mm, cm or ft. Errors: std::invalid_argument for other words.
+double metres_of(const std::string& unit);
+
 /// Unit m, mm, cm or ft; up axis x, y, z, -x, -y, -z: the axes are turned, never mirrored; y up becomes (x,
-/// -z, y). The origin is 0 along an axis where the scan lies within 1 km of it, where float32 keeps 0.1 mm;
-/// else the median of the sample rounded to 100 m. The window is centred on the median: the median of finite
-/// points in `sample` is robust against ghosts. `up_in_scan`: the unit vector that is to be z (Frame::level).
-/// Errors: std::invalid_argument for other words; returns nothing special when no point is finite.
-ScanFrame choose_frame(const ScanBlock& sample, const std::string& unit, const std::string& up,
-                       double voxel_edge_m, const std::array<double, 3>& up_in_scan = {0, 0, 1});
+/// -z, y). The origin is `middle` (scan_middle(), in the file's unit and axes), to a micrometre: every grid
+/// of every stage begins at the local origin, so that the building lies on it in the same way wherever the
+/// file's own origin is, and float32 keeps 0.1 mm up to 1 km from it. The window is centred on it.
+/// `up_in_scan`: the unit vector that is to be z (Frame::level). Errors: std::invalid_argument for other
+/// words.
+ScanFrame choose_frame(const Vec3& middle, const std::string& unit, const std::string& up,
+                       const std::array<double, 3>& up_in_scan = {0, 0, 1});
 
 /// Converts a block. Keeps the order. `local` is overwritten, its capacity used again.
 void to_local(const ScanBlock& block, const ScanFrame& frame, const UnitScale& scale, LocalPoints& local);

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
-#include <mutex>
 #include <numeric>
 
 #include "common/errors/codes.h"
 #include "stages/ingest/ingest.h"
 #include "stages/ingest/quantisation.h"
+#include "stages/ingest/scan_middle.h"
 
 namespace roomcut {
 
@@ -22,6 +18,7 @@ constexpr std::uint64_t kFewestPoints = 100;
 constexpr double kLargestFarShare = 0.1;  // more points beyond the window than this are no ghosts
 constexpr double kLargest_m = 2000;
 constexpr double kSmallest_m = 0.5;
+constexpr double kReach_m = 3000;     // of the points that say where the scan lies
 constexpr double kCoarsest_m = 0.11;  // steps of 6 cm still give walls, of 12 cm none
 
 void read_block(const ScanReader& reader, std::size_t index, ScanBlock& block) {
@@ -44,36 +41,12 @@ ScanBlock first_useful_block(const ScanReader& reader) {
   return block;
 }
 
-/// The error of the earliest block wins, whatever thread comes first.
-class FirstError {
- public:
-  bool before(std::size_t index) const { return index > earliest_.load(std::memory_order_relaxed); }
-  void note(std::size_t index) {
-    const std::scoped_lock lock(mutex_);
-    if (index < earliest_) {
-      earliest_ = index;
-      error_ = std::current_exception();
-    }
-  }
-  void rethrow() const {
-    if (error_) {
-      std::rethrow_exception(error_);
-    }
-  }
-
- private:
-  std::mutex mutex_;
-  std::atomic<std::size_t> earliest_{static_cast<std::size_t>(-1)};
-  std::exception_ptr error_;
-};
-
 struct BlockCounts {
   std::uint64_t points = 0, no_returns = 0, not_finite = 0, far = 0;
 };
 
 /// What one thread needs to sort blocks.
 struct Sorting {
-  ScanBlock block;
   LocalPoints local;
   TileSorter sorter;
 };
@@ -82,32 +55,19 @@ std::vector<BlockCounts> sort_blocks(const ScanReader& reader, const ScanFrame& 
                                      const IngestParams& params, TileStore& store, const Advance& advance) {
   std::vector<BlockCounts> counts(reader.blocks());
   tbb::enumerable_thread_specific<Sorting> per_thread([&] {
-    return Sorting{{}, {}, TileSorter(frame, scale, params)};
+    return Sorting{{}, TileSorter(frame, scale, params)};
   });
-  FirstError error;
-  // In file order, so that what a decoder has just given is still in memory.
-  std::atomic<std::size_t> next{0};
-  const auto sort_next = [&](int /*worker*/) {
-    for (std::size_t i = next++; i < reader.blocks() && !error.before(i); i = next++) {
-      try {
-        Sorting& own = per_thread.local();
-        read_block(reader, i, own.block);
-        to_local(own.block, frame, scale, own.local);
-        SortedBlock sorted;
-        own.sorter.sort(own.local, sorted);
-        counts[i] = {own.block.size() + own.block.no_returns, own.block.no_returns, own.local.not_finite,
-                     own.local.far};
-        store.put(i, std::move(sorted));
-        if (advance) {
-          advance(1);
-        }
-      } catch (...) {
-        error.note(i);
-      }
+  for_blocks(reader, [&](std::size_t i, const ScanBlock& block) {
+    Sorting& own = per_thread.local();
+    to_local(block, frame, scale, own.local);
+    SortedBlock sorted;
+    own.sorter.sort(own.local, sorted);
+    counts[i] = {block.size() + block.no_returns, block.no_returns, own.local.not_finite, own.local.far};
+    store.put(i, std::move(sorted));
+    if (advance) {
+      advance(1);
     }
-  };
-  tbb::parallel_for(0, tbb::this_task_arena::max_concurrency(), sort_next, tbb::simple_partitioner());
-  error.rethrow();
+  });
   return counts;
 }
 
@@ -185,7 +145,10 @@ TiledScan tile_scan(const ScanReader& reader, const ScanSettings& settings, cons
   scan.band_points = settings.band_points;
   {
     const ScanBlock sample = first_useful_block(reader);
-    scan.frame = choose_frame(sample, settings.unit, settings.up, params.voxel_edge_m, settings.level);
+    const double metres = metres_of(settings.unit);
+    scan.middle =
+        settings.middle ? *settings.middle : scan_middle(reader, sample, kReach_m / metres, advance);
+    scan.frame = choose_frame(scan.middle, settings.unit, settings.up, settings.level);
     scan.step_m = quantisation_step(sample, scan.frame, reader);
     check_step(scan.step_m, settings);
   }

@@ -2,15 +2,13 @@
 #include "stages/raycast/cell_evidence.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
-
-#include "common/random/counter_random.h"
 
 namespace roomcut {
 namespace {
 
-constexpr std::uint64_t kSeed = 2013;
 constexpr float kPermanent = 0.5F;  // paper: a face with omega above 1/2 is permanent
 constexpr int kColumns = 8;         // looking up and down
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
@@ -28,15 +26,49 @@ struct RayStart {
   Vec3 origin, direction;
 };
 
-RayStart random_ray(const CellComplex& complex, const FaceWalk& walk, std::size_t face, std::size_t layer,
-                    std::size_t ray) {
-  const std::uint64_t stream = complex.cell(face, layer);
-  const auto number = [&](std::uint64_t k) { return random_unit(kSeed, stream, ray * 5 + k); };
+/// Numbers in [0, 1) that spread the rays of a cell evenly over its places and directions: the additive
+/// recurrence with powers of the generalised golden ratio (Roberts' R5), begun where the cell's middle says.
+/// Neither the cell's number nor anything else but its place has a say, and that smoothly: the same cell in a
+/// complex with another line somewhere, or moved by a rounding, is asked by the same rays.
+class RaySequence {
+ public:
+  static constexpr std::size_t kNumbers = 5;
+
+  explicit RaySequence(const Vec3& middle) {
+    constexpr double kRatio = 1.1347241384015194;  // x^6 = x + 1
+    constexpr double kPerMetre = 7;                // cells side by side begin apart
+    double power = 1;
+    for (std::size_t k = 0; k < kNumbers; ++k) {
+      power /= kRatio;
+      step_[k] = power;
+      const double turn = static_cast<double>(k + 1) * power;
+      begin_[k] =
+          kPerMetre * (std::cos(turn) * middle.x() + std::sin(turn) * middle.y() + power * middle.z());
+    }
+  }
+  double number(std::size_t i, std::size_t k) const {
+    const double sum = begin_[k] + static_cast<double>(i + 1) * step_[k];
+    return sum - std::floor(sum);
+  }
+
+ private:
+  std::array<double, kNumbers> step_{}, begin_{};
+};
+
+Vec3 middle_of(const CellComplex& complex, std::size_t face, std::size_t layer) {
+  const Vec2 centre = complex.centroid(face);
+  return {centre.x(), centre.y(), complex.levels[layer] + 0.5 * complex.height(layer)};
+}
+
+RayStart ray_from(const CellComplex& complex, const FaceWalk& walk, std::size_t face, std::size_t layer,
+                  const RaySequence& sequence, std::size_t ray) {
+  // Every other ray is level: it still counts walls where floor or ceiling was not seen.
+  const bool level = ray % 2 == 0;
+  const auto number = [&](std::size_t k) { return sequence.number(ray / 2, k); };
   const Vec2 p = walk.point_in(face, number(0), number(1));
   const double z = complex.levels[layer] + number(2) * complex.height(layer);
   const double azimuth = 2 * std::numbers::pi * number(3);
-  // Every other ray is level: it still counts walls where floor or ceiling was not seen.
-  const double up = ray % 2 == 0 ? 0.0 : 2 * number(4) - 1;
+  const double up = level ? 0.0 : 2 * number(4) - 1;
   const double flat = std::sqrt(1 - up * up);
   return {{p.x(), p.y(), z}, {flat * std::cos(azimuth), flat * std::sin(azimuth), up}};
 }
@@ -134,11 +166,12 @@ void count_crossings(const std::vector<Crossing>& crossings, CellEvidence& evide
 void look_around(const CellComplex& complex, const FaceWalk& walk, std::size_t face, std::size_t layer,
                  const RayRules& rules, std::vector<Crossing>& scratch, CellEvidence& evidence) {
   const int rays = rules.rays;
+  const RaySequence sequence(middle_of(complex, face, layer));
   int rising = 0;
   int level = 0;
   int counted = 0;
   for (int r = 0; r < rays; ++r) {
-    const RayStart start = random_ray(complex, walk, face, layer, static_cast<std::size_t>(r));
+    const RayStart start = ray_from(complex, walk, face, layer, sequence, static_cast<std::size_t>(r));
     const bool is_level = start.direction.z() == 0;
     const bool to_the_end = rules.parity || std::abs(start.direction.z()) > kRising;
     walk.follow({start.origin, start.direction, face, layer}, scratch, kNoLimit, to_the_end ? 0 : kOpaque);

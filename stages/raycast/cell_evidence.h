@@ -55,8 +55,8 @@ struct RayRules {
   bool parity = false;  ///< crossings are counted along all rays, not only along steep ones
 };
 
-/// Casts rays from random points of the cell. Pure function of its arguments: random numbers depend on cell
-/// and ray only. `scratch` is reused storage.
+/// Casts rays from points spread over the cell. Pure function of its arguments; of the cell only its place
+/// decides which rays. `scratch` is reused storage.
 CellEvidence gather_evidence(const CellComplex& complex, const FaceWeights& weights, const FaceWalk& walk,
                              std::size_t face, std::size_t layer, const RayRules& rules,
                              std::vector<Crossing>& scratch);

@@ -142,11 +142,27 @@ void FaceWalk::follow(const Ray& ray, std::vector<Crossing>& crossings, double l
   }
 }
 
+/// Which corner of the face lies farthest along a direction that no wall is likely to stand across: the same
+/// one however the face's corners are numbered.
+std::size_t FaceWalk::first_corner(std::size_t face) const {
+  const Vec2 direction(0.8507, 0.5257);
+  const auto begin = complex_.face_vertex.begin() + complex_.face_offset[face];
+  const auto end = complex_.face_vertex.begin() + complex_.face_offset[face + 1];
+  const auto farthest = std::max_element(begin, end, [&](std::int32_t a, std::int32_t b) {
+    return direction.dot(complex_.vertices[static_cast<std::size_t>(a)]) <
+           direction.dot(complex_.vertices[static_cast<std::size_t>(b)]);
+  });
+  return static_cast<std::size_t>(farthest - begin);
+}
+
 Vec2 FaceWalk::point_in(std::size_t face, double u, double v) const {
   const auto begin = static_cast<std::size_t>(complex_.face_offset[face]);
   const auto end = static_cast<std::size_t>(complex_.face_offset[face + 1]);
+  const std::size_t corners = end - begin;
+  const std::size_t first = first_corner(face);
   const auto corner = [&](std::size_t i) -> const Vec2& {
-    return complex_.vertices[static_cast<std::size_t>(complex_.face_vertex[i])];
+    return complex_
+        .vertices[static_cast<std::size_t>(complex_.face_vertex[begin + (first + i - begin) % corners])];
   };
   const Vec2& a = corner(begin);
   const auto twice_area = [&](std::size_t i) {

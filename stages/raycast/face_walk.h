@@ -58,6 +58,7 @@ class FaceWalk {
     const Side* side = nullptr;  // null when the ray runs straight up or down
     double at = std::numeric_limits<double>::infinity();
   };
+  std::size_t first_corner(std::size_t face) const;
   Exit side_exit(const Ray& ray, std::size_t face) const;
   double level_exit(const Ray& ray, std::size_t layer) const;
   Crossing through_side(const Side& side, std::size_t face, std::size_t layer, double at) const;

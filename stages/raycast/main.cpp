@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
   RaycastParams params;
   StageInfo info;
   info.name = "raycast";
-  info.revision = 7;
+  info.revision = 8;
   info.summary = "Gathers what speaks for each cell being empty or solid, by rays and by its own faces";
   info.inputs = {{"cells", "50_partition/cells.h5", "Cell complex"},
                  {"weights", "55_weigh_faces/weights.h5", "Weights of its faces"}};

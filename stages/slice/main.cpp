@@ -49,7 +49,7 @@ void report(StageRun& run, const SliceResult& result) {
 int main(int argc, char** argv) {
   SliceParams params;
   StageInfo info{"slice",
-                 3,
+                 4,
                  "Finds floors and ceilings in the height histogram and the wall evidence between them.",
                  {{"cloud", "10_ingest/cloud.h5", "points in tiles, from ingest"}},
                  {{"slices", "20_slice/slices.h5", "levels, histogram, wall slices"}},

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "common/errors/codes.h"
+#include "common/geometry/preferred_number.h"
 #include "stages/slice/levels.h"
 #include "stages/slice/surfaces.h"
 #include "stages/slice/survey.h"
@@ -32,8 +33,8 @@ LevelRules level_rules(const CloudHeader& header, const SliceParams& params,
   rules.noise_m = header.noise_m;
   rules.bandwidth_m = resolve(params.bandwidth_m, std::max(0.007, 1.5 * header.noise_m), "bandwidth_m",
                               "max(7 mm, 1.5 x noise)", choices);
-  rules.raster_m = resolve(params.raster_m, std::clamp(2.5 * spacing, 0.10, 0.40), "raster_m",
-                           "2.5 x point spacing, 10 ... 40 cm", choices);
+  rules.raster_m = resolve(params.raster_m, std::clamp(preferred_number(2.5 * spacing), 0.10, 0.40),
+                           "raster_m", "2.5 x point spacing, 10 ... 40 cm", choices);
   rules.min_component_m2 =
       resolve(params.min_component_m2, 4.0, "min_component_m2",
               "larger than tables; half of the largest surface if that is less", choices);
@@ -43,7 +44,7 @@ LevelRules level_rules(const CloudHeader& header, const SliceParams& params,
 double choose_tau(const CloudHeader& header, const SliceParams& params, std::vector<SliceChoice>& choices) {
   // About three points per cell of a room's evidence height (0.6 m), and cells wider than twice the noise.
   const double sparse = header.density > 0 ? 3 / (0.6 * header.density) : 0.1;
-  const double tau = std::clamp(std::max(sparse, 2 * header.noise_m), 0.04, 0.10);
+  const double tau = std::clamp(preferred_number(std::max(sparse, 2 * header.noise_m)), 0.04, 0.10);
   return resolve(params.tau_m, tau, "tau_m", "3 points per cell, 2 x noise, 4 ... 10 cm", choices);
 }
 

@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
   WeighFacesParams params;
   StageInfo info;
   info.name = "weigh_faces";
-  info.revision = 5;
+  info.revision = 6;
   info.summary =
       "Measures how far each face of the cell complex is covered by points, and which side of it is empty";
   info.inputs = {{"cells", "50_partition/cells.h5", "Cell complex"},

@@ -9,7 +9,8 @@
 
 namespace roomcut {
 
-/// A square grid over the plan of the complex.
+/// A square grid over the plan of the complex. Its cells begin at the local origin, not at the complex's
+/// corner, which lies where the last point or line ends by chance.
 struct PlanGrid {
   Vec2 low{0, 0};
   double cell = 1;
@@ -24,6 +25,7 @@ struct PlanGrid {
       low = low.cwiseMin(v);
       high = high.cwiseMax(v);
     }
+    low = cell * (low / cell).array().floor().matrix();
     nx = std::max(1, static_cast<int>(std::ceil((high.x() - low.x()) / cell)));
     ny = std::max(1, static_cast<int>(std::ceil((high.y() - low.y()) / cell)));
   }

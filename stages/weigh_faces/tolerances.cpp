@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/geometry/preferred_number.h"
+
 namespace roomcut {
 
 Tolerances resolve_tolerances(const WeighFacesParams& params, const CloudHeader& cloud) {
@@ -12,7 +14,7 @@ Tolerances resolve_tolerances(const WeighFacesParams& params, const CloudHeader&
   Tolerances t{};
   // A bin of a covered surface should hold about 1.5 points or more: the correction for empty bins stays
   // small.
-  const double tau = params.tau_m.value_or(std::clamp(0.6 * spacing, 0.04, 0.15));
+  const double tau = params.tau_m.value_or(std::clamp(preferred_number(0.6 * spacing), 0.04, 0.15));
   t.bin = 2 * tau;
   t.wall_reach = params.wall_reach_m.value_or(std::max(0.04, std::min(3 * noise, 0.055)));
   t.wall_tight = std::max(0.012, 2.5 * noise);

@@ -281,6 +281,20 @@ TEST(DetectLines, AnyNumberOfThreadsGivesTheSameLines) {
   }
 }
 
+TEST(DetectLines, TheOutermostCellDoesNotMoveTheAccumulator) {
+  SyntheticCloud cloud;
+  twelve_rooms(cloud);
+  Slices slices = slices_of(cloud);
+  const HoughPicture before = detect_lines(slices, {}).hough;
+  OccupancyGrid& grid = slices.wall_slices.front();
+  const auto last = static_cast<std::size_t>(std::max_element(grid.x.begin(), grid.x.end()) - grid.x.begin());
+  grid.x[last] += 0.012F;
+  const HoughPicture after = detect_lines(slices, {}).hough;
+  EXPECT_LT((before.centre - after.centre).norm(), 1e-4);
+  EXPECT_EQ(before.angle_step, after.angle_step);
+  EXPECT_EQ(before.distance0, after.distance0);
+}
+
 TEST(DetectLines, SlicesWithoutCellsAreErrorN03) {
   Slices slices;
   slices.tau_m = 0.04;

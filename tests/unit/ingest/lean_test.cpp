@@ -25,6 +25,15 @@ Lean lean_of_points(const std::vector<Vec3>& points, const ScanSettings& setting
   return lean_of(class_tiles(scan, {}, [](const CloudTile&, bool) {}).estimates.lean);
 }
 
+/// With the heights of the floors.
+Lean exact_lean_of(const std::vector<Vec3>& points) {
+  const MemoryScan reader(points);
+  const TiledScan scan = tile_scan(reader, {}, {});
+  FloorFit fit;
+  const SurfaceSummary summary = class_tiles(scan, {}, [&](const CloudTile& part, bool) { fit.add(part); });
+  return lean_of(summary.estimates.lean, fit);
+}
+
 Room house() {
   Room room;
   room.size = Vec3(8, 6, 2.7);
@@ -42,6 +51,28 @@ TEST(Lean, is_that_of_floors_and_walls_of_a_tilted_scan) {
       EXPECT_LT((Vec3(lean.up[0], lean.up[1], lean.up[2]) - up).norm(), 0.05 * kDegree * 1.5) << degrees;
     }
   }
+}
+
+TEST(Lean, by_the_heights_of_floors_is_good_to_two_thousandths_of_a_degree) {
+  for (const double degrees : {0.0, 0.8, 4.0}) {
+    for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(-1, 2, 0)}) {
+      const Lean lean = exact_lean_of(turned(house().points(), degrees, axis));
+      const Vec3 up = Eigen::AngleAxisd(degrees * kDegree, axis.normalized()) * Vec3(0, 0, 1);
+      EXPECT_LT((Vec3(lean.up[0], lean.up[1], lean.up[2]) - up).norm(), 0.002 * kDegree) << degrees;
+    }
+  }
+}
+
+TEST(Lean, by_heights_is_not_that_of_steps_tables_and_ramps_on_the_floor) {
+  Room room = house();
+  std::vector<Vec3> points = room.points();
+  for (Vec3& point : points) {
+    const Vec3 inside = room.to_room(point);
+    if (inside.z() > 1) continue;
+    point.z() += inside.x() > 5 ? 0.15 : (inside.x() < 2.5 ? 0.05 * (2.5 - inside.x()) : 0);
+  }
+  EXPECT_LT(exact_lean_of(points).degrees, 0.01);
+  EXPECT_EQ(FloorFit().slope({0.01, 0.02}), (FloorFit::Slope{0.01, 0.02}));
 }
 
 TEST(Lean, is_gone_once_the_scan_is_turned_by_it) {

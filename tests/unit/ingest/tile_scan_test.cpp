@@ -141,13 +141,15 @@ TEST(TileScan, does_not_let_tile_borders_show) {
   IngestParams params;
   params.voxel_edge_m = 0.0625;
   const Vec3 shift(3.5, -1.5, 1.0);
+  ScanSettings settings;
+  settings.middle = Vec3(0, 0, 0);
   std::vector<Vec3> shifted = points;
   for (Vec3& p : shifted) {
     p += shift;
   }
   const auto collect = [&](const std::vector<Vec3>& from, const Vec3& back) {
     Found found;
-    for_points(make_cloud(MemoryScan(from), {}, params),
+    for_points(make_cloud(MemoryScan(from), settings, params),
                [&](const Vec3& p, SurfaceClass surface, int azimuth, double area) {
                  const Eigen::Vector3f key = (p - back).cast<float>();
                  found[{key.x(), key.y(), key.z()}] = {surface, azimuth, static_cast<float>(area)};
@@ -183,13 +185,15 @@ TEST(TileScan, drops_and_counts_bad_points) {
        {Vec3(600, 20, 1), Vec3(-430, -431, 2), Vec3(2, 2, 150), Vec3(1e9, 1, 1), Vec3(1, 1, -1e30)}) {
     points.push_back(ghost);
   }
-  const MadeCloud cloud = make_cloud(MemoryScan(points));
+  ScanSettings settings;
+  settings.middle = Vec3(0, 0, 0);  // ghosts move it a little, and with it the voxels
+  const MadeCloud cloud = make_cloud(MemoryScan(points), settings);
   EXPECT_EQ(cloud.counts.read, good + 7);
   EXPECT_EQ(cloud.counts.not_finite, 2U);
   EXPECT_EQ(cloud.counts.ghosts, 5U);
   EXPECT_EQ(cloud.counts.kept, good);
   EXPECT_EQ(cloud.header.points, good);
-  expect_same(cloud, make_cloud(MemoryScan(room.points())));
+  expect_same(cloud, make_cloud(MemoryScan(room.points()), settings));
 }
 
 TEST(TileScan, drops_beams_without_return_also_when_they_are_half_of_a_scan_far_from_the_origin) {

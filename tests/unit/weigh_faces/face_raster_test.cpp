@@ -26,6 +26,24 @@ TEST(FaceRaster, PiecesAddUpToTheFacesWhateverTheirDirection) {
   }
 }
 
+TEST(FaceRaster, LiesOnTheFacesInTheSameWayWhereverTheBoxEnds) {
+  const auto pieces_of = [](double box) {
+    const CellComplex complex = grid_complex({-box, 1, 1.1, 5}, {-box, 2, 3.3}, {0, 3});
+    const FaceRaster raster(complex, 0.08, 0.0);
+    std::vector<float> areas;
+    for (std::size_t i = 0; i < raster.pieces(); ++i) {
+      if (raster.piece(i).face == 4) {  // x 1 … 1.1, y 2 … 3.3
+        areas.push_back(raster.piece(i).area);
+      }
+    }
+    return areas;
+  };
+  const std::vector<float> areas = pieces_of(0.5);
+  for (const double box : {0.5001, 0.53, 2.77}) {
+    EXPECT_EQ(pieces_of(box), areas) << box;
+  }
+}
+
 TEST(FaceRaster, FindsThePieceOfAPointAndNothingWithinTheMargin) {
   const CellComplex complex = grid_complex({0, 1, 1.1, 5}, {0, 2, 3.3}, {0, 3}, 0.3);
   const FaceRaster raster(complex, 0.08, 0.015);
