@@ -153,13 +153,14 @@ export function windowOf(page, point) {
   }, point);
 }
 
-/** The vertices of a model.ply (binary, double coordinates). */
+/** The vertices of a model.ply (binary, double coordinates), in local metres. */
 export function modelVertices(work) {
   const bytes = readFileSync(join(work, "model.ply"));
   const end = bytes.indexOf("end_header\n") + "end_header\n".length;
   const head = bytes.subarray(0, end).toString();
   const count = Number(/element vertex (\d+)/.exec(head)[1]);
-  return Array.from({ length: count }, (_, i) => [0, 8, 16].map((byte) => bytes.readDoubleLE(end + 24 * i + byte)));
+  const { origin } = json(join(work, "summary.json")).frame; // the model stands where the scan does, the page's lines are local
+  return Array.from({ length: count }, (_, i) => origin.map((at, axis) => bytes.readDoubleLE(end + 24 * i + 8 * axis) - at));
 }
 
 /** How many vertices lie within `limit` metres of a line of the plan, between its ends. */
