@@ -77,26 +77,20 @@ async function saveAndRun(page, scan, work) {
 
 const accepted = (work) => new Map(json(join(work, "40_accept_lines", "wall_lines.geojson")).features.map((feature) => [feature.properties.wall_id, feature]));
 
+/** The origin of the page's coordinates in those of the scan, which all files hold. */
+const originOf = (work) => json(join(work, "summary.json")).frame.origin;
+
 /**
  * Drags an outer wall outwards and locks it; undoes, redoes; saves, runs; the wall has moved in model.ply by as much.
  * @param metres about how far
  */
-/** The origin of the page's coordinates in those of the scan, which all files hold. */
-const originOf = (work) => json(join(work, "summary.json")).frame.origin;
-
-/** Vertices of the model as the page has them. */
-function pageVertices(work) {
-  const [x0, y0, z0] = originOf(work);
-  return modelVertices(work).map(([x, y, z]) => [x - x0, y - y0, z - z0]);
-}
-
 export async function movesWall(page, scan, work, name, metres) {
   await page.click("#tab-plan");
   await page.click("#edit-toggle");
   const line = await outerLine(page);
   assert.ok(line, "no outer wall line");
   const middle = [(line.a[0] + line.b[0]) / 2, (line.a[1] + line.b[1]) / 2];
-  const carried = verticesOn(pageVertices(work), line.a, line.b, 0.03);
+  const carried = verticesOn(modelVertices(work), line.a, line.b, 0.03);
   let moved = 0;
 
   await step("a wall is dragged by a known distance, with its points in sight", async () => {
@@ -131,7 +125,7 @@ export async function movesWall(page, scan, work, name, metres) {
     assert.equal(feature.properties.source, "edited");
     assert.equal(feature.properties.locked, true);
     const away = ([x, y], offset) => [x + line.normal[0] * offset, y + line.normal[1] * offset];
-    const vertices = pageVertices(work);
+    const vertices = modelVertices(work);
     const there = verticesOn(vertices, away(line.a, moved), away(line.b, moved), 0.002);
     const left = verticesOn(vertices, line.a, line.b, 0.03);
     console.log(`        ${line.key} moved ${moved.toFixed(3)} m: ${carried} vertices at the old place, now ${left}; ${there} at the new one`);

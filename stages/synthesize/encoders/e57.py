@@ -32,7 +32,8 @@ def columns_of(own, spherical):
     if not spherical:
         return own.T
     distance = numpy.linalg.norm(own, axis=1)
-    return distance, numpy.arctan2(own[:, 1], own[:, 0]), numpy.arcsin(numpy.divide(own[:, 2], distance, where=distance > 0, out=numpy.zeros_like(distance)))
+    sine = numpy.divide(own[:, 2], distance, where=distance > 0, out=numpy.zeros_like(distance))
+    return distance, numpy.arctan2(own[:, 1], own[:, 0]), numpy.arcsin(sine)
 
 
 class SetUp:
