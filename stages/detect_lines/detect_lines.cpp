@@ -48,7 +48,7 @@ Rules derive_rules(const Slices& slices, const WallCells& cells, const DetectLin
   rules.merge.distance_m = resolve(params.merge_m, merge, "merge_m", "3.5 x noise, 2 ... 6 cm", choices);
   rules.merge.angle_rad = params.merge_angle_rad;
 
-  // The mean and a preferred number: the accumulator does not move with the outermost cell.
+  // The mean and preferred numbers: the accumulator does not move with the outermost cell.
   rules.centre = {std::accumulate(cells.x.begin(), cells.x.end(), 0.0),
                   std::accumulate(cells.y.begin(), cells.y.end(), 0.0)};
   rules.centre /= static_cast<double>(cells.size());
@@ -58,7 +58,10 @@ Rules derive_rules(const Slices& slices, const WallCells& cells, const DetectLin
   }
   rules.radius_m = preferred_number_above(std::max(1.0, rules.radius_m));
   // Two faces 8 cm apart must not blur into each other over the building's half diagonal.
-  const double angle = std::clamp(0.08 / (2 * std::max(1.0, rules.radius_m)) / kDegree, 0.1, 0.25);
+  const auto [x0, x1] = std::minmax_element(cells.x.begin(), cells.x.end());
+  const auto [y0, y1] = std::minmax_element(cells.y.begin(), cells.y.end());
+  const double half_diagonal = preferred_number(std::max(1.0, 0.5 * std::hypot(*x1 - *x0, *y1 - *y0)));
+  const double angle = std::clamp(0.08 / (2 * half_diagonal) / kDegree, 0.1, 0.25);
   rules.angle_step = kDegree * resolve(params.hough_angle_deg, angle, "hough_angle_deg",
                                        "8 cm / (2 x half diagonal), 0.1 ... 0.25 deg", choices);
   const double distance = std::clamp(preferred_number(noise), 0.01, 0.02);
