@@ -18,8 +18,7 @@ export TEXT_COLUMNS
 unexport COLUMNS
 MAKEOVERRIDES :=
 
-stages := ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines \
-          final_partition final_weigh_faces final_raycast final_graphcut find_openings extract report
+stages := $(shell sed -n 's/^\([a-z][a-z_]*\) .*/\1/p' stages/pipeline.table)
 sources = git ls-files -co --exclude-standard '*.h' '*.cpp'
 generator = $$(command -v ninja > /dev/null && echo "-G Ninja")
 # Tests run make themselves; it must not take itself for a part of this one.
@@ -56,8 +55,7 @@ help:
 	'make robustness               N=330 damaged files of each kind for every program that reads them; ONLY=, SEED=; then every' \
 	'                              write, allocation … of every stage fails once' \
 	'' \
-	'Stages: ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines' \
-	'        (second pass) final_partition final_weigh_faces final_raycast final_graphcut   find_openings extract report' \
+	'Stages: $(stages)' \
 	'WORK=folder    instead of work/<name of the scan>      CONFIG=my.yaml  parameters instead of pipeline.yaml' \
 	'UP=y UNIT=mm   how the scan is to be read              STATIONS=file   scanner positions, x y z on each line' \
 	'COLUMNS=-,x,y,z  what each column of a text scan is    LEVEL=no        a leaning scan is not levelled' \

@@ -7,8 +7,11 @@ cat <<'EOF'
 # `auto` is derived from the scan (noise, density, extent); every run prints the value that it chose and why.
 # Change a value and `make run`: that stage runs again, and of what follows only what its result changes.
 EOF
-for stage in ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines find_openings extract report \
-             evaluate synthesize; do
+seen=' '
+while IFS=' |' read -r run stage _; do
+  case $run in '' | '#'*) continue ;; esac
+  case $seen in *" $stage "*) continue ;; esac
+  seen="$seen$stage "
   echo
   "$1/bin/$stage" --dump-yaml
-done
+done < "${0%/*}/pipeline.table"

@@ -15,6 +15,7 @@
 #include "common/cli/stage_stamp.h"
 #include "common/cli/stage_state.h"
 #include "common/errors/codes.h"
+#include "common/pipeline/pipeline_table.h"
 #include "common/rerun/work_digests.h"
 
 namespace roomcut {
@@ -100,6 +101,18 @@ void declare_options(CLI::App& app, const StageInfo& info, CommandLine& line, St
       added->check(CLI::IsMember(option.choices));
     }
   }
+}
+
+/// With the default paths of the pipeline table, where the program gives none itself.
+StageInfo with_default_paths(StageInfo info) {
+  for (auto* list : {&info.inputs, &info.outputs}) {
+    for (StageFile& file : *list) {
+      if (file.default_path.empty()) {
+        file.default_path = pipeline_table().default_path(info.name, file.name).value_or("");
+      }
+    }
+  }
+  return info;
 }
 
 void resolve_files(const StageInfo& info, const CommandLine& line, StageRun::State& state) {
@@ -255,8 +268,9 @@ void write_log(const CommandLine& line, bool work_given, const StageInfo& info, 
 
 }  // namespace
 
-int run_stage(int argc, char** argv, const StageInfo& info, ParameterTable table,
+int run_stage(int argc, char** argv, const StageInfo& declared, ParameterTable table,
               const std::function<void(StageRun&)>& body) {
+  const StageInfo info = with_default_paths(declared);
   StageRun::State state;
   state.info = &info;
   CommandLine line;

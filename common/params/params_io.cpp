@@ -11,6 +11,7 @@
 #include "common/artefact/json.h"
 #include "common/errors/codes.h"
 #include "common/params/params.h"
+#include "common/pipeline/pipeline_table.h"
 
 namespace roomcut {
 
@@ -104,10 +105,7 @@ YAML::Node parse_yaml(const std::filesystem::path& path) {
 }  // namespace
 
 const std::vector<std::string>& known_stages() {
-  static const std::vector<std::string> kStages{
-      "ingest",   "slice",        "detect_lines",  "accept_lines", "partition", "weigh_faces", "raycast",
-      "graphcut", "refine_lines", "find_openings", "extract",      "report",    "evaluate",    "synthesize"};
-  return kStages;
+  return pipeline_table().programs();
 }
 
 void load_yaml(const std::filesystem::path& path, const std::string& stage, ParameterTable& table) {

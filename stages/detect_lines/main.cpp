@@ -45,14 +45,13 @@ void report(StageRun& run, const DetectLinesResult& result) {
 
 int main(int argc, char** argv) {
   DetectLinesParams params;
-  const StageInfo info{
-      "detect_lines",
-      5,
-      "Finds the wall lines of all wall slices with a Hough transform.",
-      {{"slices", "20_slice/slices.h5", "levels and wall slices, from slice"}},
-      {{"lines-out", "30_detect_lines/wall_lines.geojson", "wall lines, to be edited or taken as they are"},
-       {"hough", "30_detect_lines/hough.h5", "accumulator and classified cells, for the report"}},
-      {}};
+  const StageInfo info{"detect_lines",
+                       5,
+                       "Finds the wall lines of all wall slices with a Hough transform.",
+                       {{"slices", "levels and wall slices, from slice"}},
+                       {{"lines-out", "wall lines, to be edited or taken as they are"},
+                        {"hough", "accumulator and classified cells, for the report"}},
+                       {}};
   return run_stage(argc, argv, info, parameters(params), [&params](StageRun& run) {
     const Slices slices = read_slices(run.input("slices"));
     const DetectLinesResult result = detect_lines(slices, params);

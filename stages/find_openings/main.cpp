@@ -15,10 +15,9 @@ StageInfo info() {
   stage.name = "find_openings";
   stage.revision = 2;
   stage.summary = "Finds doors and other passages in the walls between rooms";
-  stage.inputs = {{"cells", "90_final/cells.h5", "Cell complex of the second pass"},
-                  {"labels", "90_final/labels.h5", "Its labels"},
-                  {"cloud", "10_ingest/cloud.h5", "Points"}};
-  stage.outputs = {{"openings", "95_find_openings/openings.geojson", "Doors and passages"}};
+  stage.inputs = {
+      {"cells", "Cell complex of the second pass"}, {"labels", "Its labels"}, {"cloud", "Points"}};
+  stage.outputs = {{"openings", "Doors and passages"}};
   return stage;
 }
 

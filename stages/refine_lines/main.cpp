@@ -17,12 +17,12 @@ StageInfo info() {
   stage.name = "refine_lines";
   stage.revision = 7;
   stage.summary = "Refines the wall lines that carry a wall in the first cut, on raw points";
-  stage.inputs = {{"lines", "40_accept_lines/wall_lines.geojson", "Accepted wall lines"},
-                  {"cells", "50_partition/cells.h5", "Cell complex of the first pass"},
-                  {"weights", "55_weigh_faces/weights.h5", "Weights of its faces"},
-                  {"labels", "70_graphcut/labels.h5", "Its labels"},
-                  {"cloud", "10_ingest/cloud.h5", "Points"}};
-  stage.outputs = {{"lines-out", "80_refine_lines/wall_lines.geojson", "Refined wall lines"}};
+  stage.inputs = {{"lines", "Accepted wall lines"},
+                  {"cells", "Cell complex of the first pass"},
+                  {"weights", "Weights of its faces"},
+                  {"labels", "Its labels"},
+                  {"cloud", "Points"}};
+  stage.outputs = {{"lines-out", "Refined wall lines"}};
   return stage;
 }
 

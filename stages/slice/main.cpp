@@ -51,8 +51,8 @@ int main(int argc, char** argv) {
   StageInfo info{"slice",
                  3,
                  "Finds floors and ceilings in the height histogram and the wall evidence between them.",
-                 {{"cloud", "10_ingest/cloud.h5", "points in tiles, from ingest"}},
-                 {{"slices", "20_slice/slices.h5", "levels, histogram, wall slices"}},
+                 {{"cloud", "points in tiles, from ingest"}},
+                 {{"slices", "levels, histogram, wall slices"}},
                  {}};
   return run_stage(argc, argv, info, parameters(params), [&params](StageRun& run) {
     const CloudReader cloud(run.input("cloud"));

@@ -44,10 +44,10 @@ int main(int argc, char** argv) {
   info.revision = 1;
   info.summary =
       "Makes a building from a short JSON file: a scan with noise, and its exact, closed truth mesh.";
-  info.inputs = {{"scene", "", "scene file (schemas/scene.md)"}};
-  info.outputs = {{"scan-out", "scan.ply", "the scan: binary PLY"},
-                  {"truth-out", "truth.off", "the truth: closed triangle mesh, normals into the wall"},
-                  {"truth-json", "truth.json", "rooms, walls, openings, scanner positions"}};
+  info.inputs = {{"scene", "scene file (schemas/scene.md)"}};
+  info.outputs = {{"scan-out", "the scan: binary PLY"},
+                  {"truth-out", "the truth: closed triangle mesh, normals into the wall"},
+                  {"truth-json", "rooms, walls, openings, scanner positions"}};
   SynthesizeParams params;
   ParameterTable table = {
       auto_number("points", params.points, "1", 1, 1e10, "Number of points; auto: as the scene says."),

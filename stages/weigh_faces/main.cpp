@@ -72,8 +72,7 @@ int main(int argc, char** argv) {
   info.revision = 5;
   info.summary =
       "Measures how far each face of the cell complex is covered by points, and which side of it is empty";
-  info.inputs = {{"cells", "50_partition/cells.h5", "Cell complex"},
-                 {"cloud", "10_ingest/cloud.h5", "Points in tiles"}};
-  info.outputs = {{"weights-out", "55_weigh_faces/weights.h5", "Weights of the faces"}};
+  info.inputs = {{"cells", "Cell complex"}, {"cloud", "Points in tiles"}};
+  info.outputs = {{"weights-out", "Weights of the faces"}};
   return run_stage(argc, argv, info, parameters(params), [&params](StageRun& run) { body(run, params); });
 }

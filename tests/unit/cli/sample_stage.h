@@ -15,13 +15,13 @@ inline StageInfo sample_info() {
   info.name = "slice";
   info.revision = 7;
   info.summary = "A sample.";
-  info.inputs = {{.name = "cloud", .default_path = "10_ingest/cloud.h5", .description = "points"},
+  info.inputs = {{.name = "cloud", .description = "points"},
                  {.name = "edit",
-                  .default_path = "edits/e.txt",
                   .description = "edit",
                   .optional = true,
-                  .by_bytes = true}};
-  info.outputs = {{.name = "slices", .default_path = "20_slice/slices.h5", .description = "slices"}};
+                  .by_bytes = true,
+                  .default_path = "edits/e.txt"}};
+  info.outputs = {{.name = "slices", .description = "slices"}};
   info.options = {{"up", "z", "which way is up", {"x", "y", "z"}}};
   return info;
 }

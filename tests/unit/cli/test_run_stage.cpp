@@ -89,11 +89,11 @@ TEST(RunStage, finds_files_below_the_work_folder_or_where_an_option_says) {
 
 TEST(RunStage, demands_files_that_have_no_default) {
   StageInfo info = sample_info();
-  info.inputs[0].default_path = "";
+  info.inputs[0].name = "scan";  // of which the pipeline table says nothing
   const Outcome o = run_sample(
       {}, [](StageRun&, double) {}, info);
   EXPECT_EQ(o.exit_code, 2);
-  EXPECT_TRUE(has(o.err, "error[U01] --cloud: is required")) << o.err;
+  EXPECT_TRUE(has(o.err, "error[U01] --scan: is required")) << o.err;
 }
 
 TEST(RunStage, provenance_names_stage_parameters_and_inputs_without_absolute_paths) {
@@ -122,7 +122,7 @@ TEST(RunStage, provenance_of_a_users_file_holds_its_name_only) {
   const TemporaryFolder folder;
   put_bytes(folder / "scan.ply", "ply");
   StageInfo info = sample_info();
-  info.inputs = {{.name = "scan", .default_path = "", .description = "scan"}};
+  info.inputs = {{.name = "scan", .description = "scan"}};
   run_sample(
       {"--work", folder / "w", "--scan", folder / "scan.ply", "-q"},
       [&](StageRun& run, double) {
