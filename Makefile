@@ -25,14 +25,14 @@ generator = $$(command -v ninja > /dev/null && echo "-G Ninja")
 quiet_make = env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL
 pipeline = +@sh stages/pipeline.sh
 
-.PHONY: help deps build test demo run status verify view edit-lines diff-lines drop-edit layers evaluate compare accuracy accuracy-walls accuracy-weights bench fuzz robustness tidy format ready \
+.PHONY: help deps configured build programs test demo run status verify view edit-lines diff-lines drop-edit layers evaluate compare accuracy accuracy-walls accuracy-weights bench fuzz robustness tidy format ready \
         $(stages) $(stages:%=rerun-%) $(stages:%=clean-%) $(stages:%=plot-%)
 
 help:
 	@printf '%s\n' \
 	'make demo                     set up, build, make a synthetic two-storey scan, reconstruct it (work/demo/)' \
 	'make test                     set up, build, run every test' \
-	'make build | deps             build into build/ | install what is missing: Debian packages, readers of E57, LAS, LAZ' \
+	'make build | programs | deps  build all into build/ | all but the tests | install what is missing: Debian packages, readers of E57, LAS, LAZ' \
 	'' \
 	'make run SCAN=office.ply      the whole pipeline into work/office/' \
 	'make STAGE SCAN=…             up to and including one stage' \
@@ -67,18 +67,24 @@ deps:
 	@sh .ci/install-packages.sh
 	@sh .ci/install-python.sh "$$BUILD"
 
-build: deps
+configured: deps
 	@[ -f "$$BUILD/CMakeCache.txt" ] || cmake -S . -B "$$BUILD" $(generator) $(CMAKE_ARGS)
+
+build: configured
 	@cmake --build "$$BUILD"
+
+# Without the tests, which are more than a quarter of a build.
+programs: configured
+	@cmake --build "$$BUILD" --target programs
 
 test: build
 	@$(quiet_make) ctest --test-dir "$$BUILD" --output-on-failure -j "$$(nproc)"
 
 # The programs, built when there are none yet. After a change of the sources: make build.
 ready:
-	@if [ ! -x "$$BUILD/bin/report" ] || [ ! -x "$$BUILD/bin/artefact" ]; then $(MAKE) build; fi
+	@if [ ! -x "$$BUILD/bin/report" ] || [ ! -x "$$BUILD/bin/artefact" ]; then $(MAKE) programs; fi
 
-demo: build
+demo: programs
 	@mkdir -p work/demo
 	@"$$BUILD/bin/synthesize" --scene tests/data/scenes/paper_two_storeys.json --scan-out work/demo/scan.ply \
 	  --truth-out work/demo/truth.off --truth-json work/demo/truth.json

@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "common/artefact/unsynced_file.h"
+#include "common/cli/describe.h"
 #include "common/cli/stage_stamp.h"
 #include "common/cli/stage_state.h"
 #include "common/errors/codes.h"
@@ -38,6 +39,8 @@ struct CommandLine {
   bool verbose = false;
   bool dump = false;
   bool dump_yaml = false;
+  bool describe = false;
+  bool only_prints() const { return dump || dump_yaml || describe; }
   std::map<std::string, std::string> files;
 };
 
@@ -81,6 +84,7 @@ void declare_options(CLI::App& app, const StageInfo& info, CommandLine& line, St
   app.add_flag("-v,--verbose", line.verbose, "Print settings and files as well");
   app.add_flag("--dump-params", line.dump, "Print the resolved parameters and stop");
   app.add_flag("--dump-yaml", line.dump_yaml, "Print the parameters as a block of pipeline.yaml and stop");
+  app.add_flag("--describe", line.describe, "Print files, options and parameters as JSON and stop");
   for (const auto* list : {&info.inputs, &info.outputs}) {
     const bool is_input = list == &info.inputs;
     for (const StageFile& file : *list) {
@@ -273,6 +277,7 @@ int run_stage(int argc, char** argv, const StageInfo& declared, ParameterTable t
   const StageInfo info = with_default_paths(declared);
   StageRun::State state;
   state.info = &info;
+  state.table = &table;
   CommandLine line;
   CLI::App app(info.summary, info.name);
   app.footer("Parameters (pipeline.yaml, block " + info.name + ", or --set):\n" + parameter_help(table));
@@ -301,6 +306,10 @@ int run_stage(int argc, char** argv, const StageInfo& declared, ParameterTable t
           std::cout << parameter_yaml(info.name, info.summary, table) << std::flush;
           return;
         }
+        if (line.describe) {
+          std::cout << pretty_json(describe_program(info, table)) << "\n" << std::flush;
+          return;
+        }
         resolve_files(info, line, state);
         state.params_json = params_json(table);
         state.quiet = line.quiet;
@@ -320,7 +329,7 @@ int run_stage(int argc, char** argv, const StageInfo& declared, ParameterTable t
         print_summary(state);
       },
       problems);
-  if (!line.dump && !line.dump_yaml && ran) {
+  if (!line.only_prints() && ran) {
     write_log(line, work_given, info, state, problems, exit_code);
   }
   return exit_code;

@@ -79,9 +79,9 @@ class StageRun {
   void wrote(const std::filesystem::path& path);
 
   Progress progress(const std::string& what, std::uint64_t total) const;
-  /// A value that `auto` resolved to: printed as "slice: bandwidth_m = 0.012 (2 x noise)" and kept in the
-  /// log.
-  void chose(const std::string& parameter, double value, const std::string& why);
+  /// A value that `auto` resolved to: printed with the parameter's formula as "slice: bandwidth_m = 0.012 (2
+  /// x noise)" and kept in the log.
+  void chose(const std::string& parameter, double value);
   /// A count or figure of this run: printed at the end and kept in the log.
   void count(const std::string& what, double value, const std::string& unit = "");
   /// How something was understood: printed at once, kept in the log.

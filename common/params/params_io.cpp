@@ -222,7 +222,7 @@ std::string parameter_help(const ParameterTable& table) {
   for (const Parameter& p : table) {
     const std::string unit = p.unit == "1" ? "" : " " + p.unit;
     text += "  " + p.name + ": " + p.default_text + "   (" + p.range + unit +
-            (p.may_be_auto ? ", or auto" : "") + ")\n      " + p.description + "\n";
+            (p.may_be_auto ? ", or auto: " + p.formula : "") + ")\n      " + p.description + "\n";
   }
   return text;
 }
@@ -237,7 +237,8 @@ std::string parameter_yaml(const std::string& stage, const std::string& summary,
       comment.pop_back();
     }
     const std::string unit = p.unit == "1" ? "" : " " + p.unit;
-    std::istringstream words(comment + " [" + p.range + unit + (p.may_be_auto ? ", or auto" : "") + "]");
+    std::istringstream words(comment + " [" + p.range + unit +
+                             (p.may_be_auto ? ", or auto: " + p.formula : "") + "]");
     std::string line = "  #";
     for (std::string word; words >> word;) {
       if (line.size() + 1 + word.size() > kWidth) {

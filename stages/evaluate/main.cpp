@@ -73,8 +73,7 @@ void body(StageRun& run, const EvaluateParams& params) {
   write_json_artefact(run.output("scores"), artefacts::kScores, run.provenance(), Frame{},
                       scores_json(scores));
   write_cells_out(run, scores, cells);
-  run.chose("sample_spacing_m", scores.sample_spacing_m,
-            "about 250,000 samples of the truth, at most 1 million of either surface");
+  run.chose("sample_spacing_m", scores.sample_spacing_m);
   if (!run.quiet()) {
     std::cout << scores_table(scores);
   }

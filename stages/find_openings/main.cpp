@@ -30,7 +30,7 @@ void body(StageRun& run, const FindOpeningsParams& params) {
     const OpeningTolerances tolerances =
         opening_tolerances(params, cloud.header().noise_m, cloud.header().density);
     if (!params.margin_m) {
-      run.chose("margin_m", tolerances.margin_m, "the larger of 1.5 cm and 3 x noise");
+      run.chose("margin_m", tolerances.margin_m);
     }
     const std::vector<RoomWall> walls =
         find_room_walls(cells.complex, labels.label, params.max_thickness_m, params.max_width_m, kColumn_m);

@@ -62,13 +62,13 @@ void body(StageRun& run, const RefineLinesParams& params) {
   LineRefiner refiner(lines.content, cells.complex, labels.label, cloud.header().noise_m,
                       cloud.header().density, params, one_sided, carried);
   if (!params.band_m) {
-    run.chose("band_m", refiner.band_m(), "the larger of 6 cm and 5 x noise");
+    run.chose("band_m", refiner.band_m());
   }
   if (!params.merge_m) {
-    run.chose("merge_m", refiner.merge_m(), "the larger of 1.5 cm and 1.2 x noise");
+    run.chose("merge_m", refiner.merge_m());
   }
   if (!params.split_m) {
-    run.chose("split_m", refiner.split_m(), "the larger of 5 mm and half the noise");
+    run.chose("split_m", refiner.split_m());
   }
   Progress progress = run.progress("observing", cloud.header().points);
   cloud.for_each_tile([&](std::size_t, const CloudTile& tile) { refiner.add(tile); },

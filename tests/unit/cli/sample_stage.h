@@ -46,7 +46,9 @@ inline Outcome run_sample(
   }
   argv.push_back(nullptr);
   double width = 0.5;
-  ParameterTable table{number("width_m", width, "m", 0, 10, "How wide.")};
+  std::optional<double> depth;
+  ParameterTable table{number("width_m", width, "m", 0, 10, "How wide."),
+                       auto_number("depth_m", depth, "m", 0, 10, "How deep.", "twice the noise")};
   ::testing::internal::CaptureStdout();
   ::testing::internal::CaptureStderr();
   Outcome outcome;
