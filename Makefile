@@ -18,22 +18,21 @@ export TEXT_COLUMNS
 unexport COLUMNS
 MAKEOVERRIDES :=
 
-stages := ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines \
-          final_partition final_weigh_faces final_raycast final_graphcut find_openings extract report
+stages := $(shell sed -n 's/^\([a-z][a-z_]*\) .*/\1/p' stages/pipeline.table)
 sources = git ls-files -co --exclude-standard '*.h' '*.cpp'
 generator = $$(command -v ninja > /dev/null && echo "-G Ninja")
 # Tests run make themselves; it must not take itself for a part of this one.
 quiet_make = env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL
 pipeline = +@sh stages/pipeline.sh
 
-.PHONY: help deps build test demo run status verify view edit-lines diff-lines drop-edit layers evaluate compare accuracy accuracy-walls accuracy-weights bench fuzz robustness tidy format ready \
+.PHONY: help deps configured build programs test demo run status verify view edit-lines diff-lines drop-edit layers evaluate compare accuracy accuracy-walls accuracy-weights bench fuzz robustness tidy format ready \
         $(stages) $(stages:%=rerun-%) $(stages:%=clean-%) $(stages:%=plot-%)
 
 help:
 	@printf '%s\n' \
 	'make demo                     set up, build, make a synthetic two-storey scan, reconstruct it (work/demo/)' \
 	'make test                     set up, build, run every test' \
-	'make build | deps             build into build/ | install what is missing: Debian packages, readers of E57, LAS, LAZ' \
+	'make build | programs | deps  build all into build/ | all but the tests | install what is missing: Debian packages, readers of E57, LAS, LAZ' \
 	'' \
 	'make run SCAN=office.ply      the whole pipeline into work/office/' \
 	'make STAGE SCAN=…             up to and including one stage' \
@@ -56,8 +55,7 @@ help:
 	'make robustness               N=330 damaged files of each kind for every program that reads them; ONLY=, SEED=; then every' \
 	'                              write, allocation … of every stage fails once' \
 	'' \
-	'Stages: ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines' \
-	'        (second pass) final_partition final_weigh_faces final_raycast final_graphcut   find_openings extract report' \
+	'Stages: $(stages)' \
 	'WORK=folder    instead of work/<name of the scan>      CONFIG=my.yaml  parameters instead of pipeline.yaml' \
 	'UP=y UNIT=mm   how the scan is to be read              STATIONS=file   scanner positions, x y z on each line' \
 	'COLUMNS=-,x,y,z  what each column of a text scan is    LEVEL=no        a leaning scan is not levelled' \
@@ -69,18 +67,24 @@ deps:
 	@sh .ci/install-packages.sh
 	@sh .ci/install-python.sh "$$BUILD"
 
-build: deps
+configured: deps
 	@[ -f "$$BUILD/CMakeCache.txt" ] || cmake -S . -B "$$BUILD" $(generator) $(CMAKE_ARGS)
+
+build: configured
 	@cmake --build "$$BUILD"
+
+# Without the tests, which are more than a quarter of a build.
+programs: configured
+	@cmake --build "$$BUILD" --target programs
 
 test: build
 	@$(quiet_make) ctest --test-dir "$$BUILD" --output-on-failure -j "$$(nproc)"
 
 # The programs, built when there are none yet. After a change of the sources: make build.
 ready:
-	@if [ ! -x "$$BUILD/bin/report" ] || [ ! -x "$$BUILD/bin/artefact" ]; then $(MAKE) build; fi
+	@if [ ! -x "$$BUILD/bin/report" ] || [ ! -x "$$BUILD/bin/artefact" ]; then $(MAKE) programs; fi
 
-demo: build
+demo: programs
 	@mkdir -p work/demo
 	@"$$BUILD/bin/synthesize" --scene tests/data/scenes/paper_two_storeys.json --scan-out work/demo/scan.ply \
 	  --truth-out work/demo/truth.off --truth-json work/demo/truth.json

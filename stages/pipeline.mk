@@ -29,7 +29,7 @@ $(foreach output,$(3),maker_$(output) := $(1)
 makers_$(1) := $$(sort $$(foreach input,$(4),$$(maker_$$(input))))
 .PHONY: $(1)
 $(1): $$(makers_$(1))
-	$$(if $$(call is_due,$(1)),$$(call run_stage,$(1),$(2),$(4),$(5)),@:)
+	$$(if $$(call is_due,$(1)),$$(call run_stage,$(1),$(2),$(4),$(5) $$(options_$(1))),@:)
 endef
 
 # Asked when all before it are done; $(file) sees marks that are new.
@@ -44,44 +44,12 @@ run_stage = @$(environment_$(1))"$$ROOMCUT_BIN/$(2)" --work . --params params/$(
 # How memory is taken (pipeline.sh); ingest has its own way.
 environment_ingest := GLIBC_TUNABLES="$$ROOMCUT_INGEST_HEAP" # the space belongs to it
 
-lines_30 := 30_detect_lines/wall_lines.geojson
-lines_40 := 40_accept_lines/wall_lines.geojson
-lines_80 := 80_refine_lines/wall_lines.geojson
-cloud    := 10_ingest/cloud.h5
-slices   := 20_slice/slices.h5
-cells    := 50_partition/cells.h5
-weights  := 55_weigh_faces/weights.h5
-terms    := 60_raycast/data_terms.h5
-labels   := 70_graphcut/labels.h5
-final    := 90_final/cells.h5 90_final/weights.h5 90_final/data_terms.h5 90_final/labels.h5
-openings := 95_find_openings/openings.geojson
+# What ingest is told beside its files. Every other option is in the table.
+options_ingest = --scan "$$ROOMCUT_SCAN" --up "$$ROOMCUT_UP" --unit "$$ROOMCUT_UNIT" $${ROOMCUT_COLUMNS:+--columns="$$ROOMCUT_COLUMNS"} --level "$$ROOMCUT_LEVEL" \
+  $$(test ! -s inputs/stations.txt || echo --stations inputs/stations.txt)
 
-$(eval $(call stage,ingest,ingest,$(cloud),scan inputs/scan.options inputs/stations.txt,\
-  --scan "$$$$ROOMCUT_SCAN" --up "$$$$ROOMCUT_UP" --unit "$$$$ROOMCUT_UNIT" $$$${ROOMCUT_COLUMNS:+--columns="$$$$ROOMCUT_COLUMNS"} --level "$$$$ROOMCUT_LEVEL" \
-  $$$$(test ! -s inputs/stations.txt || echo --stations inputs/stations.txt)))
-$(eval $(call stage,slice,slice,$(slices),$(cloud)))
-$(eval $(call stage,detect_lines,detect_lines,$(lines_30) 30_detect_lines/hough.h5,$(slices)))
-$(eval $(call stage,accept_lines,accept_lines,$(lines_40),$(lines_30) edits/wall_lines.geojson))
-$(eval $(call stage,partition,partition,$(cells),$(lines_40) $(slices)))
-$(eval $(call stage,weigh_faces,weigh_faces,$(weights),$(cells) $(cloud)))
-$(eval $(call stage,raycast,raycast,$(terms),$(cells) $(weights)))
-$(eval $(call stage,graphcut,graphcut,$(labels),$(cells) $(weights) $(terms)))
-$(eval $(call stage,refine_lines,refine_lines,$(lines_80),$(lines_40) $(cells) $(weights) $(labels) $(cloud)))
-
-# The second pass: the same programs and parameters on the refined lines.
-$(eval $(call stage,final_partition,partition,90_final/cells.h5,$(lines_80) $(slices),\
-  --lines $(lines_80) --cells-out 90_final/cells.h5))
-$(eval $(call stage,final_weigh_faces,weigh_faces,90_final/weights.h5,90_final/cells.h5 $(cloud),\
-  --cells 90_final/cells.h5 --weights-out 90_final/weights.h5))
-$(eval $(call stage,final_raycast,raycast,90_final/data_terms.h5,90_final/cells.h5 90_final/weights.h5,\
-  --cells 90_final/cells.h5 --weights 90_final/weights.h5 --terms-out 90_final/data_terms.h5))
-$(eval $(call stage,final_graphcut,graphcut,90_final/labels.h5,90_final/cells.h5 90_final/weights.h5 90_final/data_terms.h5,\
-  --cells 90_final/cells.h5 --weights 90_final/weights.h5 --terms 90_final/data_terms.h5 --labels-out 90_final/labels.h5))
-
-$(eval $(call stage,find_openings,find_openings,$(openings),90_final/cells.h5 90_final/labels.h5 $(cloud)))
-$(eval $(call stage,extract,extract,model.ply model.obj summary.json,$(final) $(openings)))
-$(eval $(call stage,report,report,report.html,$(cloud) $(slices) $(lines_30) 30_detect_lines/hough.h5 $(lines_40) $(cells) \
-  $(weights) $(terms) $(labels) $(lines_80) $(final) $(openings) model.ply summary.json))
+# A call of `stage` per line of stages/pipeline.table, as the programs were built with it.
+$(eval $(shell "$$ROOMCUT_BIN/artefact" rules))
 
 run: $(names) ; @:
 

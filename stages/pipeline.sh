@@ -7,8 +7,13 @@ set -eu
 
 # Every process that this script starts costs milliseconds, a run should cost a quarter of a second: builtins where they do.
 root=$(cd "${0%/*}/.." && pwd)
-stages="ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines find_openings extract report"
-runs="$stages final_partition final_weigh_faces final_raycast final_graphcut"
+runs= stages= # of the pipeline, and each program once
+while IFS=' |' read -r run program _; do
+  case $run in '' | '#'* | -) continue ;; esac
+  runs="$runs $run"
+  case " $stages " in *" $program "*) ;; *) stages="$stages $program" ;; esac
+done < "$root/stages/pipeline.table"
+runs=${runs# } stages=${stages# }
 . "$root/stages/pipeline_inputs.sh"
 : "${SCAN:=}" "${WORK:=}" "${CONFIG:=}" "${BUILD:=$root/build}" "${JOBS:=}" "${UP:=}" "${UNIT:=}" "${TEXT_COLUMNS:=}" "${LEVEL:=}" "${STATIONS:=}" "${TRUTH:=}"
 : "${PORT:=}" "${QUIET:=}" "${A:=}" "${B:=}"
@@ -94,7 +99,7 @@ enter_to_read() {
 }
 
 pipeline_table() {
-  "${MAKE:-make}" -f "$root/stages/pipeline.mk" table
+  ROOMCUT_BIN=$BIN "${MAKE:-make}" -f "$root/stages/pipeline.mk" table
 }
 
 # rules GOAL …: runs what is not what it should be, up to and including the goals; in any case the stage $again.

@@ -4,6 +4,7 @@
 #include "common/artefact/h5.h"
 #include "common/artefact_tool/commands.h"
 #include "common/errors/codes.h"
+#include "common/pipeline/pipeline_table.h"
 
 namespace {
 
@@ -14,6 +15,7 @@ constexpr const char* kUsage =
     "artefact show|digest|bytes FILE …\n"
     "artefact plan [--scan FILE] [--again STAGE] GOAL … < PIPELINE   artefact status [--scan FILE] < "
     "PIPELINE\n"
+    "artefact rules\n"
     "artefact verify [--schemas FOLDER] [--scan FILE] STAMP …\n";
 
 void show(const std::filesystem::path& path) {
@@ -76,6 +78,8 @@ int run(const std::string& command, Paths paths) {
                   << "\n";
       }
     }
+  } else if (command == "rules") {
+    for (const PipelineRun& part : pipeline_table().runs()) std::cout << make_rule(pipeline_table(), part);
   } else {
     std::cerr << kUsage;
     return static_cast<int>(ExitCode::kUsage);

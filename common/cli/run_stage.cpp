@@ -12,9 +12,11 @@
 #include <system_error>
 
 #include "common/artefact/unsynced_file.h"
+#include "common/cli/describe.h"
 #include "common/cli/stage_stamp.h"
 #include "common/cli/stage_state.h"
 #include "common/errors/codes.h"
+#include "common/pipeline/pipeline_table.h"
 #include "common/rerun/work_digests.h"
 
 namespace roomcut {
@@ -37,6 +39,8 @@ struct CommandLine {
   bool verbose = false;
   bool dump = false;
   bool dump_yaml = false;
+  bool describe = false;
+  bool only_prints() const { return dump || dump_yaml || describe; }
   std::map<std::string, std::string> files;
 };
 
@@ -80,6 +84,7 @@ void declare_options(CLI::App& app, const StageInfo& info, CommandLine& line, St
   app.add_flag("-v,--verbose", line.verbose, "Print settings and files as well");
   app.add_flag("--dump-params", line.dump, "Print the resolved parameters and stop");
   app.add_flag("--dump-yaml", line.dump_yaml, "Print the parameters as a block of pipeline.yaml and stop");
+  app.add_flag("--describe", line.describe, "Print files, options and parameters as JSON and stop");
   for (const auto* list : {&info.inputs, &info.outputs}) {
     const bool is_input = list == &info.inputs;
     for (const StageFile& file : *list) {
@@ -100,6 +105,18 @@ void declare_options(CLI::App& app, const StageInfo& info, CommandLine& line, St
       added->check(CLI::IsMember(option.choices));
     }
   }
+}
+
+/// With the default paths of the pipeline table, where the program gives none itself.
+StageInfo with_default_paths(StageInfo info) {
+  for (auto* list : {&info.inputs, &info.outputs}) {
+    for (StageFile& file : *list) {
+      if (file.default_path.empty()) {
+        file.default_path = pipeline_table().default_path(info.name, file.name).value_or("");
+      }
+    }
+  }
+  return info;
 }
 
 void resolve_files(const StageInfo& info, const CommandLine& line, StageRun::State& state) {
@@ -255,10 +272,12 @@ void write_log(const CommandLine& line, bool work_given, const StageInfo& info, 
 
 }  // namespace
 
-int run_stage(int argc, char** argv, const StageInfo& info, ParameterTable table,
+int run_stage(int argc, char** argv, const StageInfo& declared, ParameterTable table,
               const std::function<void(StageRun&)>& body) {
+  const StageInfo info = with_default_paths(declared);
   StageRun::State state;
   state.info = &info;
+  state.table = &table;
   CommandLine line;
   CLI::App app(info.summary, info.name);
   app.footer("Parameters (pipeline.yaml, block " + info.name + ", or --set):\n" + parameter_help(table));
@@ -287,6 +306,10 @@ int run_stage(int argc, char** argv, const StageInfo& info, ParameterTable table
           std::cout << parameter_yaml(info.name, info.summary, table) << std::flush;
           return;
         }
+        if (line.describe) {
+          std::cout << pretty_json(describe_program(info, table)) << "\n" << std::flush;
+          return;
+        }
         resolve_files(info, line, state);
         state.params_json = params_json(table);
         state.quiet = line.quiet;
@@ -306,7 +329,7 @@ int run_stage(int argc, char** argv, const StageInfo& info, ParameterTable table
         print_summary(state);
       },
       problems);
-  if (!line.dump && !line.dump_yaml && ran) {
+  if (!line.only_prints() && ran) {
     write_log(line, work_given, info, state, problems, exit_code);
   }
   return exit_code;

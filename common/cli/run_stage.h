@@ -17,13 +17,14 @@ namespace roomcut {
 /// A file that a stage reads or writes: option `--<name> FILE`, default `<work>/<default_path>`.
 struct StageFile {
   std::string name;  ///< "cloud" gives the option --cloud
-  std::string
-      default_path;  ///< below the work folder, e.g. "10_ingest/cloud.h5"; empty: the option is required
   std::string description;
   bool optional = false;  ///< may be absent (e.g. edits/wall_lines.geojson) or not asked for
   /// Inputs only: provenance takes the digest of the file's bytes, whatever the file says of itself. For
   /// files that a person may edit.
   bool by_bytes = false;
+  /// Below the work folder. run_stage() takes it from the pipeline table (common/pipeline); given here by
+  /// programs that stand in no line of it. None in either: the option is required, unless optional.
+  std::string default_path{};
 };
 
 /// A free-standing option of one stage that is neither a parameter nor an artefact (e.g. ingest's --up).
@@ -78,9 +79,9 @@ class StageRun {
   void wrote(const std::filesystem::path& path);
 
   Progress progress(const std::string& what, std::uint64_t total) const;
-  /// A value that `auto` resolved to: printed as "slice: bandwidth_m = 0.012 (2 x noise)" and kept in the
-  /// log.
-  void chose(const std::string& parameter, double value, const std::string& why);
+  /// A value that `auto` resolved to: printed with the parameter's formula as "slice: bandwidth_m = 0.012 (2
+  /// x noise)" and kept in the log.
+  void chose(const std::string& parameter, double value);
   /// A count or figure of this run: printed at the end and kept in the log.
   void count(const std::string& what, double value, const std::string& unit = "");
   /// How something was understood: printed at once, kept in the log.

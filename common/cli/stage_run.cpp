@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -121,7 +122,13 @@ Progress StageRun::progress(const std::string& what, std::uint64_t total) const 
   return {state_.info->name + ": " + what, total, state_.quiet};
 }
 
-void StageRun::chose(const std::string& parameter, double value, const std::string& why) {
+void StageRun::chose(const std::string& parameter, double value) {
+  const auto found = std::find_if(state_.table->begin(), state_.table->end(),
+                                  [&](const Parameter& p) { return p.name == parameter; });
+  if (found == state_.table->end()) {
+    throw std::logic_error("the stage has no parameter " + parameter);
+  }
+  const std::string& why = found->formula;
   const std::scoped_lock lock(state_.mutex);
   state_.choices.push_back({parameter, value, why});
   spdlog::info("{}: {} = {} ({})", state_.info->name, parameter, readable(value), why);

@@ -29,6 +29,7 @@ struct Count {
 
 struct StageRun::State {
   const StageInfo* info = nullptr;
+  const ParameterTable* table = nullptr;
   std::map<std::string, std::filesystem::path> files;  ///< inputs and outputs; names do not collide
   std::map<std::string, std::string> options;
   std::string params_json;

@@ -112,9 +112,10 @@ Parameter angle(std::string name, double& field_rad, double lowest_deg, double h
 }
 
 Parameter auto_number(std::string name, std::optional<double>& field, std::string unit, double lowest,
-                      double highest, std::string description) {
+                      double highest, std::string description, std::string formula) {
   Parameter p = describe(std::move(name), std::move(unit), "number", lowest, highest, std::move(description));
   p.may_be_auto = true;
+  p.formula = std::move(formula);
   p.set = [&field, lowest, highest, wanted = wanted_text(p)](const std::string& text) {
     if (text == "auto") {
       field.reset();

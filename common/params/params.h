@@ -21,6 +21,7 @@ struct Parameter {
   std::vector<std::string> choices;
   double lowest = 0, highest = 0;  ///< for numbers and integers, in the user's unit
   bool may_be_auto = false;
+  std::string formula;  ///< what `auto` comes to, e.g. "3.5 x noise, 2 ... 6 cm"
   /// Sets the bound field from text as it stands in YAML; throws std::invalid_argument("must be …") when it
   /// does not fit.
   std::function<void(const std::string&)> set;
@@ -34,9 +35,9 @@ Parameter number(std::string name, double& field, std::string unit, double lowes
 /// Like number(), but in `pipeline.yaml` in degrees and in `field` in radians.
 Parameter angle(std::string name, double& field_rad, double lowest_deg, double highest_deg,
                 std::string description);
-/// Empty field = "auto": the stage derives the value from the data and says what it chose and why.
+/// Empty field = "auto": the stage derives the value from the data by `formula` and says what it chose.
 Parameter auto_number(std::string name, std::optional<double>& field, std::string unit, double lowest,
-                      double highest, std::string description);
+                      double highest, std::string description, std::string formula);
 Parameter integer(std::string name, int& field, std::string unit, int lowest, int highest,
                   std::string description);
 Parameter boolean(std::string name, bool& field, std::string description);

@@ -11,6 +11,7 @@
 #include "common/artefact/json.h"
 #include "common/errors/codes.h"
 #include "common/params/params.h"
+#include "common/pipeline/pipeline_table.h"
 
 namespace roomcut {
 
@@ -104,10 +105,7 @@ YAML::Node parse_yaml(const std::filesystem::path& path) {
 }  // namespace
 
 const std::vector<std::string>& known_stages() {
-  static const std::vector<std::string> kStages{
-      "ingest",   "slice",        "detect_lines",  "accept_lines", "partition", "weigh_faces", "raycast",
-      "graphcut", "refine_lines", "find_openings", "extract",      "report",    "evaluate",    "synthesize"};
-  return kStages;
+  return pipeline_table().programs();
 }
 
 void load_yaml(const std::filesystem::path& path, const std::string& stage, ParameterTable& table) {
@@ -224,7 +222,7 @@ std::string parameter_help(const ParameterTable& table) {
   for (const Parameter& p : table) {
     const std::string unit = p.unit == "1" ? "" : " " + p.unit;
     text += "  " + p.name + ": " + p.default_text + "   (" + p.range + unit +
-            (p.may_be_auto ? ", or auto" : "") + ")\n      " + p.description + "\n";
+            (p.may_be_auto ? ", or auto: " + p.formula : "") + ")\n      " + p.description + "\n";
   }
   return text;
 }
@@ -239,7 +237,8 @@ std::string parameter_yaml(const std::string& stage, const std::string& summary,
       comment.pop_back();
     }
     const std::string unit = p.unit == "1" ? "" : " " + p.unit;
-    std::istringstream words(comment + " [" + p.range + unit + (p.may_be_auto ? ", or auto" : "") + "]");
+    std::istringstream words(comment + " [" + p.range + unit +
+                             (p.may_be_auto ? ", or auto: " + p.formula : "") + "]");
     std::string line = "  #";
     for (std::string word; words >> word;) {
       if (line.size() + 1 + word.size() > kWidth) {

@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "common/cli/run_stage.h"
+#include "common/pipeline/pipeline_table.h"
 #include "common/wall_lines/describe_changes.h"
 #include "common/wall_lines/wall_lines_io.h"
 #include "stages/accept_lines/accept_lines.h"
@@ -14,8 +15,8 @@ StageInfo info() {
   StageInfo stage;
   stage.name = "diff_lines";
   stage.summary = "Prints what the hand edit adds, moves and deletes; writes nothing";
-  stage.inputs = {{"detected", "30_detect_lines/wall_lines.geojson", "Detected wall lines"},
-                  {"edit", "edits/wall_lines.geojson", "Wall lines edited by hand", true, true}};
+  stage.inputs = {{"detected", "Detected wall lines", false, false, pipeline_table().path("detected")},
+                  {"edit", "Wall lines edited by hand", true, true, pipeline_table().path("edit")}};
   return stage;
 }
 

@@ -16,9 +16,8 @@ StageInfo info() {
   stage.name = "accept_lines";
   stage.revision = 2;
   stage.summary = "Takes the hand-edited wall lines if there are any, else the detected ones";
-  stage.inputs = {{"detected", "30_detect_lines/wall_lines.geojson", "Detected wall lines"},
-                  {"edit", "edits/wall_lines.geojson", "Wall lines edited by hand", true, true}};
-  stage.outputs = {{"lines-out", "40_accept_lines/wall_lines.geojson", "Accepted wall lines"}};
+  stage.inputs = {{"detected", "Detected wall lines"}, {"edit", "Wall lines edited by hand", true, true}};
+  stage.outputs = {{"lines-out", "Accepted wall lines"}};
   return stage;
 }
 

@@ -15,10 +15,10 @@ StageInfo info() {
   StageInfo stage;
   stage.name = "compare";
   stage.summary = "Compares two runs: parameters, lines, rooms, models";
-  stage.inputs = {{"distance", "distance.json", "scores of evaluate: model B, truth A", true},
-                  {"picture", "distance.png", "picture of evaluate", true}};
-  stage.outputs = {{"comparison", "comparison.json", "all that was found"},
-                   {"page", "comparison.html", "the same as a page"}};
+  stage.inputs = {{"distance", "scores of evaluate: model B, truth A", true, false, "distance.json"},
+                  {"picture", "picture of evaluate", true, false, "distance.png"}};
+  stage.outputs = {{"comparison", "all that was found", false, false, "comparison.json"},
+                   {"page", "the same as a page", false, false, "comparison.html"}};
   stage.options = {{"a", "", "one work folder", {}}, {"b", "", "the other one", {}}};
   return stage;
 }

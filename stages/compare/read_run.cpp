@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages/compare/read_run.h"
 
-#include <array>
-
 #include "common/artefact/artefact_check.h"
 #include "common/artefact/atomic_file.h"
 #include "common/artefact/h5.h"
@@ -10,6 +8,7 @@
 #include "common/cells/cells_io.h"
 #include "common/errors/codes.h"
 #include "common/openings/openings_io.h"
+#include "common/pipeline/pipeline_table.h"
 #include "common/wall_lines/wall_lines_io.h"
 
 namespace roomcut {
@@ -19,24 +18,29 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kMostSpaces = 1'000'000;
-constexpr const char* kCloud = "10_ingest/cloud.h5";
-constexpr const char* kAccepted = "40_accept_lines/wall_lines.geojson";
-constexpr const char* kRefined = "80_refine_lines/wall_lines.geojson";
-constexpr const char* kOpenings = "95_find_openings/openings.geojson";
+/// Below the work folder.
+const std::string& path_of(const char* artefact) {
+  return pipeline_table().path(artefact);
+}
+
+/// The file of a run that states its parameters; empty for runs without one.
+std::string stating_file(const PipelineRun& run) {
+  for (const RunFile& file : run.writes) {
+    const std::string extension = fs::path(file.path).extension();
+    if (extension == ".h5" || extension == ".geojson" || extension == ".json") return file.path;
+  }
+  return "";
+}
 
 /// The stages with parameters and an artefact that tells which; the second pass has those of the first.
-constexpr std::array<std::pair<const char*, const char*>, 11> kStages{
-    {{"ingest", kCloud},
-     {"slice", "20_slice/slices.h5"},
-     {"detect_lines", "30_detect_lines/wall_lines.geojson"},
-     {"accept_lines", kAccepted},
-     {"partition", "50_partition/cells.h5"},
-     {"weigh_faces", "55_weigh_faces/weights.h5"},
-     {"raycast", "60_raycast/data_terms.h5"},
-     {"graphcut", "70_graphcut/labels.h5"},
-     {"refine_lines", kRefined},
-     {"find_openings", kOpenings},
-     {"extract", "summary.json"}}};
+std::vector<std::pair<std::string, std::string>> stating_stages() {
+  std::vector<std::pair<std::string, std::string>> stages;
+  for (const PipelineRun& run : pipeline_table().runs()) {
+    const std::string file = stating_file(run);
+    if (run.name == run.program && !file.empty()) stages.emplace_back(run.name, file);
+  }
+  return stages;
+}
 
 bool there(const fs::path& path) {
   std::error_code error;
@@ -78,22 +82,21 @@ Json chosen_values(const fs::path& log) {
 }
 
 void read_parameters(const fs::path& folder, RunFacts& run) {
-  for (const auto& [stage, file] : kStages) {
+  for (const auto& [stage, file] : stating_stages()) {
     if (!there(folder / file)) {
       continue;
     }
     const Provenance provenance = read_provenance(folder / file);
-    const Json chosen = chosen_values(folder / "logs" / (std::string(stage) + ".json"));
+    const Json chosen = chosen_values(folder / "logs" / (stage + ".json"));
     const Json parameters = try_parse_json(provenance.params_json);
     for (const auto& [name, value] : parameters.items()) {
       std::string text = text_of(value);
       if (chosen.contains(name)) {
         text += " (" + text_of(chosen[name]) + ")";
       }
-      run.parameters.emplace_back(std::string(stage) + "." + name, text);
+      run.parameters.emplace_back(stage + "." + name, text);
     }
-    run.parameters.emplace_back(std::string(stage) + " (revision)",
-                                std::to_string(provenance.stage_revision));
+    run.parameters.emplace_back(stage + " (revision)", std::to_string(provenance.stage_revision));
     for (const InputRecord& input : provenance.inputs) {
       run.scan_sha256 = input.name == "scan" ? input.payload_sha256 : run.scan_sha256;
       run.edited = run.edited || input.name == "edit";
@@ -164,15 +167,17 @@ void read_plan(const fs::path& folder, RunFacts& run) {
 }  // namespace
 
 RunFacts read_run(const fs::path& folder) {
-  if (!there(folder / kCloud)) {
-    throw StageError(errors::kArtefactMissing, (folder / kCloud).string(), "there is no run in this folder",
+  if (!there(folder / path_of("cloud"))) {
+    throw StageError(errors::kArtefactMissing, (folder / path_of("cloud")).string(),
+                     "there is no run in this folder",
                      "name two work folders: make compare A=work/x B=work/y");
   }
   RunFacts run;
   const fs::path whole = fs::weakly_canonical(folder);
   run.name = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
   read_parameters(folder, run);
-  for (const char* file : {kRefined, kAccepted}) {
+  for (const char* name : {"refined", "accepted"}) {
+    const std::string& file = path_of(name);
     if (there(folder / file)) {
       WallLines lines = read_wall_lines(folder / file).content;
       run.frame = lines.frame;
@@ -182,11 +187,11 @@ RunFacts read_run(const fs::path& folder) {
     }
   }
   read_plan(folder, run);
-  if (there(folder / kOpenings)) {
-    run.openings = read_openings(folder / kOpenings).content.openings;
+  if (there(folder / path_of("openings"))) {
+    run.openings = read_openings(folder / path_of("openings")).content.openings;
   }
-  if (there(folder / "summary.json")) {
-    const fs::path summary = folder / "summary.json";
+  if (there(folder / path_of("summary"))) {
+    const fs::path summary = folder / path_of("summary");
     reading(summary, kMakeAgain, [&] { read_summary(summary, run); });
   }
   return run;

@@ -27,10 +27,10 @@ struct Rules {
   double radius_m = 0;
 };
 
-double resolve(const std::optional<double>& given, double derived, const char* name, const char* why,
+double resolve(const std::optional<double>& given, double derived, const char* name,
                std::vector<DetectLinesChoice>& choices) {
   if (given) return *given;
-  choices.push_back({name, derived, why});
+  choices.push_back({name, derived});
   return derived;
 }
 
@@ -39,13 +39,13 @@ Rules derive_rules(const Slices& slices, const WallCells& cells, const DetectLin
   Rules rules;
   const double noise = slices.noise_m;
   const double inlier = std::max(0.025, 2.5 * noise);
-  rules.fit.inlier_m = resolve(params.inlier_m, inlier, "inlier_m", "max(2.5 cm, 2.5 x noise)", choices);
+  rules.fit.inlier_m = resolve(params.inlier_m, inlier, "inlier_m", choices);
   rules.fit.inlier_angle_rad = params.inlier_angle_rad;
   rules.fit.cauchy_m = std::max(0.01, noise);
   rules.fit.bin_m = 2 * slices.tau_m;
   rules.fit.max_gap_m = params.max_gap_m;
   const double merge = std::clamp(3.5 * noise, 0.02, 0.06);
-  rules.merge.distance_m = resolve(params.merge_m, merge, "merge_m", "3.5 x noise, 2 ... 6 cm", choices);
+  rules.merge.distance_m = resolve(params.merge_m, merge, "merge_m", choices);
   rules.merge.angle_rad = params.merge_angle_rad;
 
   // The mean and preferred numbers: the accumulator does not move with the outermost cell.
@@ -62,11 +62,9 @@ Rules derive_rules(const Slices& slices, const WallCells& cells, const DetectLin
   const auto [y0, y1] = std::minmax_element(cells.y.begin(), cells.y.end());
   const double half_diagonal = preferred_number(std::max(1.0, 0.5 * std::hypot(*x1 - *x0, *y1 - *y0)));
   const double angle = std::clamp(0.08 / (2 * half_diagonal) / kDegree, 0.1, 0.25);
-  rules.angle_step = kDegree * resolve(params.hough_angle_deg, angle, "hough_angle_deg",
-                                       "8 cm / (2 x half diagonal), 0.1 ... 0.25 deg", choices);
+  rules.angle_step = kDegree * resolve(params.hough_angle_deg, angle, "hough_angle_deg", choices);
   const double distance = std::clamp(preferred_number(noise), 0.01, 0.02);
-  rules.distance_step =
-      resolve(params.hough_distance_m, distance, "hough_distance_m", "noise, 1 ... 2 cm", choices);
+  rules.distance_step = resolve(params.hough_distance_m, distance, "hough_distance_m", choices);
   return rules;
 }
 

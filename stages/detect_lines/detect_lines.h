@@ -12,11 +12,10 @@
 
 namespace roomcut {
 
-/// A value that was derived from the data, and why.
+/// A value that was derived from the data, by the parameter's formula.
 struct DetectLinesChoice {
   std::string parameter;
   double value;
-  std::string why;
 };
 
 /// The accumulator as it was before any line was taken out, made small enough to look at.

@@ -16,24 +16,25 @@ ParameterTable parameters(DetectLinesParams& p) {
       number("min_support_m", p.min_support_m, "m", 0.05, 100.0, "Shortest covered length of a wall line."),
       number("max_gap_m", p.max_gap_m, "m", 0.0, 1000.0,
              "Supports farther apart on one line become wall lines of their own."),
-      auto_number("inlier_m", p.inlier_m, "m", 0.001, 0.5, "Farthest a cell may lie from its wall line."),
+      auto_number("inlier_m", p.inlier_m, "m", 0.001, 0.5, "Farthest a cell may lie from its wall line.",
+                  "max(2.5 cm, 2.5 x noise)"),
       angle("inlier_angle_deg", p.inlier_angle_rad, 1.0, 90.0,
             "Farthest a cell's direction may be from its wall line's."),
       angle("vote_window_deg", p.vote_window_rad, 0.0, 45.0,
             "A cell votes for all angles this far to both sides of its own."),
-      auto_number("merge_m", p.merge_m, "m", 0.0, 0.5, "Wall lines nearer than this are joined."),
+      auto_number("merge_m", p.merge_m, "m", 0.0, 0.5, "Wall lines nearer than this are joined.",
+                  "3.5 x noise, 2 ... 6 cm"),
       angle("merge_angle_deg", p.merge_angle_rad, 0.0, 45.0,
             "Wall lines that differ less than this in angle may be joined."),
       auto_number("hough_distance_m", p.hough_distance_m, "m", 0.001, 0.2,
-                  "Distance step of the Hough accumulator."),
+                  "Distance step of the Hough accumulator.", "noise, 1 ... 2 cm"),
       auto_number("hough_angle_deg", p.hough_angle_deg, "deg", 0.05, 5.0,
-                  "Angle step of the Hough accumulator."),
+                  "Angle step of the Hough accumulator.", "8 cm / (2 x half diagonal), 0.1 ... 0.25 deg"),
   };
 }
 
 void report(StageRun& run, const DetectLinesResult& result) {
-  for (const DetectLinesChoice& choice : result.choices)
-    run.chose(choice.parameter, choice.value, choice.why);
+  for (const DetectLinesChoice& choice : result.choices) run.chose(choice.parameter, choice.value);
   double support_m = 0;
   for (const WallLine& line : result.lines.lines) support_m += line.support_m;
   run.count("wall lines", static_cast<double>(result.lines.lines.size()));
@@ -45,14 +46,13 @@ void report(StageRun& run, const DetectLinesResult& result) {
 
 int main(int argc, char** argv) {
   DetectLinesParams params;
-  const StageInfo info{
-      "detect_lines",
-      6,
-      "Finds the wall lines of all wall slices with a Hough transform.",
-      {{"slices", "20_slice/slices.h5", "levels and wall slices, from slice"}},
-      {{"lines-out", "30_detect_lines/wall_lines.geojson", "wall lines, to be edited or taken as they are"},
-       {"hough", "30_detect_lines/hough.h5", "accumulator and classified cells, for the report"}},
-      {}};
+  const StageInfo info{"detect_lines",
+                       6,
+                       "Finds the wall lines of all wall slices with a Hough transform.",
+                       {{"slices", "levels and wall slices, from slice"}},
+                       {{"lines-out", "wall lines, to be edited or taken as they are"},
+                        {"hough", "accumulator and classified cells, for the report"}},
+                       {}};
   return run_stage(argc, argv, info, parameters(params), [&params](StageRun& run) {
     const Slices slices = read_slices(run.input("slices"));
     const DetectLinesResult result = detect_lines(slices, params);

@@ -18,17 +18,16 @@ StageInfo info() {
   stage.name = "evaluate";
   stage.revision = 1;
   stage.summary = "Scores a model against a truth mesh";
-  stage.inputs = {
-      {"model", "model.ply", "Mesh to judge: PLY, OFF or OBJ"},
-      {"truth", "", "Closed mesh of the rooms' empty space: OFF, PLY or OBJ"},
-      {"truth-json", "truth.json", "Rooms of the truth; without it every body is a room", true},
-      {"cells", "", "Cells that the model was made of (90_final/cells.h5): explains what is wrong", true},
-      {"labels", "", "Their labels; required with --cells", true},
-      {"terms", "", "Their data terms: adds the evidence", true}};
-  stage.outputs = {{"scores", "evaluate/scores.json", "All scores"},
-                   {"coloured", "evaluate/distance.ply", "The model coloured by its distance to the truth"},
-                   {"picture", "evaluate/distance.png", "The same as a picture"},
-                   {"cells-out", "", "How much of every cell is empty in the truth; needs --cells", true}};
+  stage.inputs = {{"model", "Mesh to judge: PLY, OFF or OBJ"},
+                  {"truth", "Closed mesh of the rooms' empty space: OFF, PLY or OBJ"},
+                  {"truth-json", "Rooms of the truth; without it every body is a room", true},
+                  {"cells", "Cells that the model was made of: explains what is wrong", true},
+                  {"labels", "Their labels; required with --cells", true},
+                  {"terms", "Their data terms: adds the evidence", true}};
+  stage.outputs = {{"scores", "All scores"},
+                   {"coloured", "The model coloured by its distance to the truth"},
+                   {"picture", "The same as a picture"},
+                   {"cells-out", "How much of every cell is empty in the truth; needs --cells", true}};
   return stage;
 }
 
@@ -74,8 +73,7 @@ void body(StageRun& run, const EvaluateParams& params) {
   write_json_artefact(run.output("scores"), artefacts::kScores, run.provenance(), Frame{},
                       scores_json(scores));
   write_cells_out(run, scores, cells);
-  run.chose("sample_spacing_m", scores.sample_spacing_m,
-            "about 250,000 samples of the truth, at most 1 million of either surface");
+  run.chose("sample_spacing_m", scores.sample_spacing_m);
   if (!run.quiet()) {
     std::cout << scores_table(scores);
   }

@@ -10,9 +10,10 @@ namespace roomcut {
 inline ParameterTable evaluate_parameters(EvaluateParams& params) {
   return {
       auto_number("sample_spacing_m", params.sample_spacing_m, "m", 0.001, 1,
-                  "Distance between samples of the surfaces; auto: about 250,000 samples each"),
+                  "Distance between samples of the surfaces",
+                  "about 250,000 samples of the truth, at most 1 million of either surface"),
       auto_number("column_spacing_m", params.column_spacing_m, "m", 0.001, 1,
-                  "Distance between the vertical lines that compare volumes; auto: about 250,000 lines"),
+                  "Distance between the vertical lines that compare volumes", "about 250,000 lines"),
       number("thin_wall_m", params.thin_wall_m, "m", 0.05, 2,
              "Walls and slabs up to this thickness count as thin structure between rooms"),
       number("found_share", params.found_share, "1", 0.05, 1,

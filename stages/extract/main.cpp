@@ -16,15 +16,14 @@ StageInfo info() {
   stage.name = "extract";
   stage.revision = 4;
   stage.summary = "Turns the labelled cells into a closed model: model.ply, model.obj, summary.json";
-  stage.inputs = {{"cells", "90_final/cells.h5", "Cell decomposition"},
-                  {"weights", "90_final/weights.h5", "Evidence on the faces"},
-                  {"terms", "90_final/data_terms.h5", "Evidence and data term per cell"},
-                  {"labels", "90_final/labels.h5", "Empty and solid cells"},
-                  {"openings", "95_find_openings/openings.geojson",
-                   "Doors and passages; absent: every wall stays closed", true}};
-  stage.outputs = {{"ply", "model.ply", "Triangles, with kind, storey and region"},
-                   {"obj", "model.obj", "Polygons, grouped per storey and kind"},
-                   {"summary", "summary.json", "Storeys, rooms, areas, volumes, checks"}};
+  stage.inputs = {{"cells", "Cell decomposition"},
+                  {"weights", "Evidence on the faces"},
+                  {"terms", "Evidence and data term per cell"},
+                  {"labels", "Empty and solid cells"},
+                  {"openings", "Doors and passages; absent: every wall stays closed", true}};
+  stage.outputs = {{"ply", "Triangles, with kind, storey and region"},
+                   {"obj", "Polygons, grouped per storey and kind"},
+                   {"summary", "Storeys, rooms, areas, volumes, checks"}};
   return stage;
 }
 

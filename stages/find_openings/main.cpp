@@ -15,10 +15,9 @@ StageInfo info() {
   stage.name = "find_openings";
   stage.revision = 3;
   stage.summary = "Finds doors and other passages in the walls between rooms";
-  stage.inputs = {{"cells", "90_final/cells.h5", "Cell complex of the second pass"},
-                  {"labels", "90_final/labels.h5", "Its labels"},
-                  {"cloud", "10_ingest/cloud.h5", "Points"}};
-  stage.outputs = {{"openings", "95_find_openings/openings.geojson", "Doors and passages"}};
+  stage.inputs = {
+      {"cells", "Cell complex of the second pass"}, {"labels", "Its labels"}, {"cloud", "Points"}};
+  stage.outputs = {{"openings", "Doors and passages"}};
   return stage;
 }
 
@@ -31,7 +30,7 @@ void body(StageRun& run, const FindOpeningsParams& params) {
     const OpeningTolerances tolerances =
         opening_tolerances(params, cloud.header().noise_m, cloud.header().density);
     if (!params.margin_m) {
-      run.chose("margin_m", tolerances.margin_m, "the larger of 1.5 cm and 3 x noise");
+      run.chose("margin_m", tolerances.margin_m);
     }
     const std::vector<RoomWall> walls =
         find_room_walls(cells.complex, labels.label, params.max_thickness_m, params.max_width_m, kColumn_m);

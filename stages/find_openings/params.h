@@ -15,8 +15,8 @@ inline ParameterTable find_openings_parameters(FindOpeningsParams& p) {
       number("min_height_m", p.min_height_m, "m", 0.5, 10, "Lowest opening, from the floor to its head."),
       number("max_thickness_m", p.max_thickness_m, "m", 0.05, 3, "Thicker walls are not looked through."),
       auto_number("margin_m", p.margin_m, "m", 0.002, 0.1,
-                  "Points this near a face of a wall lie on it, not inside the wall; auto: max(0.015, 3 x "
-                  "noise), at most a third of the wall."),
+                  "Points this near a face of a wall lie on it, not inside the wall.",
+                  "max(1.5 cm, 3 x noise), at most a third of the wall"),
   };
 }
 

@@ -12,10 +12,10 @@ StageInfo info() {
   stage.name = "graphcut";
   stage.revision = 3;
   stage.summary = "Labels every cell empty or solid by one exact minimum cut";
-  stage.inputs = {{"cells", "50_partition/cells.h5", "The cell complex"},
-                  {"weights", "55_weigh_faces/weights.h5", "Coverage of its faces"},
-                  {"terms", "60_raycast/data_terms.h5", "Data term of its cells"}};
-  stage.outputs = {{"labels-out", "70_graphcut/labels.h5", "Label, margin and trust of every cell"}};
+  stage.inputs = {{"cells", "The cell complex"},
+                  {"weights", "Coverage of its faces"},
+                  {"terms", "Data term of its cells"}};
+  stage.outputs = {{"labels-out", "Label, margin and trust of every cell"}};
   return stage;
 }
 

@@ -99,11 +99,11 @@ StageInfo ingest_info() {
   info.revision = 5;
   info.summary = "Reads a raw scan; finds surface class, azimuth, noise and density from sums in voxels.";
   info.inputs = {
-      {"scan", "", "The scan: PLY, E57, LAS, LAZ, PCD, PTX or text (.xyz .txt .csv .pts .asc)"},
-      {"stations", "", "Scanner positions as text, x y z on each line, in the scan's unit and axes", true}};
+      {"scan", "The scan: PLY, E57, LAS, LAZ, PCD, PTX or text (.xyz .txt .csv .pts .asc)"},
+      {"stations", "Scanner positions as text, x y z on each line, in the scan's unit and axes", true}};
   info.inputs[0].by_bytes = true;
   info.inputs[1].by_bytes = true;
-  info.outputs = {{"cloud", "10_ingest/cloud.h5", "The points in tiles, with class, azimuth and area"}};
+  info.outputs = {{"cloud", "The points in tiles, with class, azimuth and area"}};
   info.options = {
       {"up", "z", "The scan's up axis", {"x", "y", "z", "-x", "-y", "-z"}},
       {"unit", "m", "The scan's length unit", {"m", "mm", "cm", "ft"}},

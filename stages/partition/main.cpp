@@ -17,9 +17,8 @@ StageInfo info() {
   stage.name = "partition";
   stage.revision = 1;
   stage.summary = "Cuts the plan into convex cells along the wall lines and stacks them between the levels";
-  stage.inputs = {{"lines", "40_accept_lines/wall_lines.geojson", "Accepted (or refined) wall lines"},
-                  {"slices", "20_slice/slices.h5", "Levels of floors and ceilings"}};
-  stage.outputs = {{"cells-out", "50_partition/cells.h5", "The cell complex"}};
+  stage.inputs = {{"lines", "Accepted (or refined) wall lines"}, {"slices", "Levels of floors and ceilings"}};
+  stage.outputs = {{"cells-out", "The cell complex"}};
   return stage;
 }
 

@@ -45,8 +45,7 @@ int main(int argc, char** argv) {
   info.name = "raycast";
   info.revision = 8;
   info.summary = "Gathers what speaks for each cell being empty or solid, by rays and by its own faces";
-  info.inputs = {{"cells", "50_partition/cells.h5", "Cell complex"},
-                 {"weights", "55_weigh_faces/weights.h5", "Weights of its faces"}};
-  info.outputs = {{"terms-out", "60_raycast/data_terms.h5", "Evidence and data term per cell"}};
+  info.inputs = {{"cells", "Cell complex"}, {"weights", "Weights of its faces"}};
+  info.outputs = {{"terms-out", "Evidence and data term per cell"}};
   return run_stage(argc, argv, info, parameters(params), [&params](StageRun& run) { body(run, params); });
 }

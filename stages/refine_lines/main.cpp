@@ -17,12 +17,12 @@ StageInfo info() {
   stage.name = "refine_lines";
   stage.revision = 8;
   stage.summary = "Refines the wall lines that carry a wall in the first cut, on raw points";
-  stage.inputs = {{"lines", "40_accept_lines/wall_lines.geojson", "Accepted wall lines"},
-                  {"cells", "50_partition/cells.h5", "Cell complex of the first pass"},
-                  {"weights", "55_weigh_faces/weights.h5", "Weights of its faces"},
-                  {"labels", "70_graphcut/labels.h5", "Its labels"},
-                  {"cloud", "10_ingest/cloud.h5", "Points"}};
-  stage.outputs = {{"lines-out", "80_refine_lines/wall_lines.geojson", "Refined wall lines"}};
+  stage.inputs = {{"lines", "Accepted wall lines"},
+                  {"cells", "Cell complex of the first pass"},
+                  {"weights", "Weights of its faces"},
+                  {"labels", "Its labels"},
+                  {"cloud", "Points"}};
+  stage.outputs = {{"lines-out", "Refined wall lines"}};
   return stage;
 }
 
@@ -62,13 +62,13 @@ void body(StageRun& run, const RefineLinesParams& params) {
   LineRefiner refiner(lines.content, cells.complex, labels.label, cloud.header().noise_m,
                       cloud.header().density, params, one_sided, carried);
   if (!params.band_m) {
-    run.chose("band_m", refiner.band_m(), "the larger of 6 cm and 5 x noise");
+    run.chose("band_m", refiner.band_m());
   }
   if (!params.merge_m) {
-    run.chose("merge_m", refiner.merge_m(), "the larger of 1.5 cm and 1.2 x noise");
+    run.chose("merge_m", refiner.merge_m());
   }
   if (!params.split_m) {
-    run.chose("split_m", refiner.split_m(), "the larger of 5 mm and half the noise");
+    run.chose("split_m", refiner.split_m());
   }
   Progress progress = run.progress("observing", cloud.header().points);
   cloud.for_each_tile([&](std::size_t, const CloudTile& tile) { refiner.add(tile); },

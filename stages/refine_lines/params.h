@@ -31,18 +31,16 @@ inline ParameterTable refine_lines_parameters(RefineLinesParams& p) {
       number("one_sided_m2", p.one_sided_m2, "m^2", 0, 1000,
              "A wall of which this much was seen from one side gets its unseen face, one usual thickness "
              "behind."),
-      auto_number(
-          "band_m", p.band_m, "m", 0.005, 0.5,
-          "Half width of the band around a line whose points are observed; auto: max(0.06, 5 x noise)."),
+      auto_number("band_m", p.band_m, "m", 0.005, 0.5,
+                  "Half width of the band around a line whose points are observed.", "max(6 cm, 5 x noise)"),
       number("bin_m", p.bin_m, "m", 0.01, 1, "Length of line that gives one observation."),
       angle("regularity_deg", p.regularity_rad, 0, 5,
             "How exactly walls of one direction (mod 90 deg) are taken to be parallel; 0 switches it off."),
-      auto_number("merge_m", p.merge_m, "m", 0, 0.2,
-                  "Refined lines of one face closer than this become one; auto: max(0.015, 1.2 x noise)."),
-      auto_number(
-          "split_m", p.split_m, "m", 0, 0.2,
-          "Walls on one line that differ by more, and measurably so, become lines of their own; auto: "
-          "max(0.005, noise / 2)."),
+      auto_number("merge_m", p.merge_m, "m", 0, 0.2, "Refined lines of one face closer than this become one.",
+                  "max(1.5 cm, 1.2 x noise)"),
+      auto_number("split_m", p.split_m, "m", 0, 0.2,
+                  "Walls on one line that differ by more, and measurably so, become lines of their own.",
+                  "max(5 mm, noise / 2)"),
       angle("merge_angle_deg", p.merge_angle_rad, 0, 5, "Lines that differ by more are never merged."),
       choice("edited_lines", p.edited_lines, {"prior", "locked", "free"},
              "Lines drawn or moved by hand: held near (2 cm, 1 deg), held exactly, or treated like detected "

@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
   info.revision = 5;
   info.summary = "Draws every stage whose artefacts are there, and a page that shows them all.";
   info.inputs = report_inputs();
-  info.outputs = {{"report", "report.html", "the page; the pictures go to the folder pictures/ beside it"}};
+  info.outputs = {{"report", "the page; the pictures go to the folder pictures/ beside it"}};
   info.options = {
       {"only", "all", "draw the result of one stage, or only some files; the page is then left as it is",
        report_choices()},

@@ -6,6 +6,7 @@
 #include "common/artefact/atomic_file.h"
 #include "common/artefact/h5.h"
 #include "common/openings/openings_io.h"
+#include "common/pipeline/pipeline_table.h"
 #include "common/slices/slices_io.h"
 #include "common/wall_lines/wall_lines_format.h"
 #include "common/wall_lines/wall_lines_io.h"
@@ -15,22 +16,6 @@ namespace roomcut {
 
 namespace {
 
-/// In the order of the pipeline; the names of the logs.
-constexpr std::array kStages = {"ingest",
-                                "slice",
-                                "detect_lines",
-                                "accept_lines",
-                                "partition",
-                                "weigh_faces",
-                                "raycast",
-                                "graphcut",
-                                "refine_lines",
-                                "final_partition",
-                                "final_weigh_faces",
-                                "final_raycast",
-                                "final_graphcut",
-                                "find_openings",
-                                "extract"};
 /// What a log says of a run apart from where and when it was.
 constexpr std::array kLogMembers = {"stage",   "revision", "version", "wall_s", "cpu_s",   "peak_memory_mb",
                                     "threads", "params",   "chosen",  "counts", "warnings"};
@@ -108,13 +93,16 @@ void add_log_block(const StageRun& run, std::vector<PageBlock>& blocks) {
   PageBlockBuilder logs("logs");
   logs.facts["stages"] = Json::array();
   const std::filesystem::path folder = run.output("report").parent_path() / "logs";
-  for (const char* stage : kStages) {
-    const std::filesystem::path file = folder / (std::string(stage) + ".json");
+  for (const PipelineRun& part : pipeline_table().runs()) {
+    if (part.program == "report") {
+      continue;
+    }
+    const std::filesystem::path file = folder / (part.name + ".json");
     const Json log = std::filesystem::exists(file) ? try_parse_json(read_text_file(file)) : Json();
     if (!log.is_object()) {
       continue;
     }
-    Json kept = {{"run", stage}};
+    Json kept = {{"run", part.name}};
     for (const char* member : kLogMembers) {
       if (log.contains(member)) {
         kept[member] = log[member];

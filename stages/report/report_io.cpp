@@ -15,23 +15,23 @@
 namespace roomcut {
 
 std::vector<StageFile> report_inputs() {
-  return {{"cloud", "10_ingest/cloud.h5", "the cloud", true},
-          {"slices", "20_slice/slices.h5", "the slices", true},
-          {"detected", "30_detect_lines/wall_lines.geojson", "the detected wall lines", true},
-          {"hough", "30_detect_lines/hough.h5", "what the detection saw", true},
-          {"lines", "40_accept_lines/wall_lines.geojson", "the accepted wall lines", true},
-          {"refined", "80_refine_lines/wall_lines.geojson", "the refined wall lines", true},
-          {"first_cells", "50_partition/cells.h5", "the cells of the first pass", true},
-          {"first_weights", "55_weigh_faces/weights.h5", "the weights of their faces", true},
-          {"first_terms", "60_raycast/data_terms.h5", "their data terms", true},
-          {"first_labels", "70_graphcut/labels.h5", "their labels", true},
-          {"cells", "90_final/cells.h5", "the cells", true},
-          {"weights", "90_final/weights.h5", "the weights of their faces", true},
-          {"terms", "90_final/data_terms.h5", "their data terms", true},
-          {"labels", "90_final/labels.h5", "their labels", true},
-          {"openings", "95_find_openings/openings.geojson", "the openings", true},
-          {"model", "model.ply", "the model", true},
-          {"summary", "summary.json", "its summary", true}};
+  return {{"cloud", "the cloud", true},
+          {"slices", "the slices", true},
+          {"detected", "the detected wall lines", true},
+          {"hough", "what the detection saw", true},
+          {"lines", "the accepted wall lines", true},
+          {"refined", "the refined wall lines", true},
+          {"first_cells", "the cells of the first pass", true},
+          {"first_weights", "the weights of their faces", true},
+          {"first_terms", "their data terms", true},
+          {"first_labels", "their labels", true},
+          {"cells", "the cells", true},
+          {"weights", "the weights of their faces", true},
+          {"terms", "their data terms", true},
+          {"labels", "their labels", true},
+          {"openings", "the openings", true},
+          {"model", "the model", true},
+          {"summary", "its summary", true}};
 }
 
 std::vector<std::string> report_choices() {

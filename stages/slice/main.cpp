@@ -12,13 +12,17 @@ using namespace roomcut;
 ParameterTable parameters(SliceParams& p) {
   return {
       auto_number("bandwidth_m", p.bandwidth_m, "m", 0.002, 0.5,
-                  "Bandwidth of the mean shift that finds the peaks of the height histogram."),
+                  "Bandwidth of the mean shift that finds the peaks of the height histogram.",
+                  "max(7 mm, 1.5 x noise)"),
       auto_number("raster_m", p.raster_m, "m", 0.02, 1.0,
-                  "Edge of the plan raster in which horizontal surfaces are connected."),
+                  "Edge of the plan raster in which horizontal surfaces are connected.",
+                  "2.5 x point spacing, 10 ... 40 cm"),
       auto_number("min_component_m2", p.min_component_m2, "m^2", 0.1, 100.0,
-                  "Smallest connected horizontal surface that makes a level."),
+                  "Smallest connected horizontal surface that makes a level.",
+                  "4 m^2; half of the largest surface if that is less"),
       auto_number("tau_m", p.tau_m, "m", 0.01, 0.5,
-                  "Edge of the occupancy cells of a wall slice (the paper's tau)."),
+                  "Edge of the occupancy cells of a wall slice (the paper's tau).",
+                  "3 points per cell, 2 x noise, 4 ... 10 cm"),
       number("cap_reach_m", p.cap_reach_m, "m", 0.05, 5.0,
              "Walls that go on farther past the last level get a cap there."),
       number("step_m", p.step_m, "m", 0.0, 5.0,
@@ -31,7 +35,7 @@ ParameterTable parameters(SliceParams& p) {
 }
 
 void report(StageRun& run, const SliceResult& result) {
-  for (const SliceChoice& choice : result.choices) run.chose(choice.parameter, choice.value, choice.why);
+  for (const SliceChoice& choice : result.choices) run.chose(choice.parameter, choice.value);
   const Slices& slices = result.slices;
   std::size_t cells = 0;
   for (const OccupancyGrid& grid : slices.wall_slices) cells += grid.size();
@@ -51,8 +55,8 @@ int main(int argc, char** argv) {
   StageInfo info{"slice",
                  4,
                  "Finds floors and ceilings in the height histogram and the wall evidence between them.",
-                 {{"cloud", "10_ingest/cloud.h5", "points in tiles, from ingest"}},
-                 {{"slices", "20_slice/slices.h5", "levels, histogram, wall slices"}},
+                 {{"cloud", "points in tiles, from ingest"}},
+                 {{"slices", "levels, histogram, wall slices"}},
                  {}};
   return run_stage(argc, argv, info, parameters(params), [&params](StageRun& run) {
     const CloudReader cloud(run.input("cloud"));

@@ -18,11 +18,11 @@ namespace {
 
 constexpr double kHistogramBin = 0.005;  // m; below any useful bandwidth
 
-/// Takes the user's value, or the derived one and notes why.
-double resolve(const std::optional<double>& given, double derived, const char* name, const char* why,
+/// Takes the user's value, or the derived one and notes it.
+double resolve(const std::optional<double>& given, double derived, const char* name,
                std::vector<SliceChoice>& choices) {
   if (given) return *given;
-  choices.push_back({name, derived, why});
+  choices.push_back({name, derived});
   return derived;
 }
 
@@ -31,13 +31,11 @@ LevelRules level_rules(const CloudHeader& header, const SliceParams& params,
   const double spacing = header.density > 0 ? 1 / std::sqrt(header.density) : 0.1;
   LevelRules rules;
   rules.noise_m = header.noise_m;
-  rules.bandwidth_m = resolve(params.bandwidth_m, std::max(0.007, 1.5 * header.noise_m), "bandwidth_m",
-                              "max(7 mm, 1.5 x noise)", choices);
-  rules.raster_m = resolve(params.raster_m, std::clamp(preferred_number(2.5 * spacing), 0.10, 0.40),
-                           "raster_m", "2.5 x point spacing, 10 ... 40 cm", choices);
-  rules.min_component_m2 =
-      resolve(params.min_component_m2, 4.0, "min_component_m2",
-              "larger than tables; half of the largest surface if that is less", choices);
+  rules.bandwidth_m =
+      resolve(params.bandwidth_m, std::max(0.007, 1.5 * header.noise_m), "bandwidth_m", choices);
+  rules.raster_m =
+      resolve(params.raster_m, std::clamp(preferred_number(2.5 * spacing), 0.10, 0.40), "raster_m", choices);
+  rules.min_component_m2 = resolve(params.min_component_m2, 4.0, "min_component_m2", choices);
   return rules;
 }
 
@@ -45,7 +43,7 @@ double choose_tau(const CloudHeader& header, const SliceParams& params, std::vec
   // About three points per cell of a room's evidence height (0.6 m), and cells wider than twice the noise.
   const double sparse = header.density > 0 ? 3 / (0.6 * header.density) : 0.1;
   const double tau = std::clamp(preferred_number(std::max(sparse, 2 * header.noise_m)), 0.04, 0.10);
-  return resolve(params.tau_m, tau, "tau_m", "3 points per cell, 2 x noise, 4 ... 10 cm", choices);
+  return resolve(params.tau_m, tau, "tau_m", choices);
 }
 
 std::string format(const char* text, double a, double b, double c) {

@@ -10,11 +10,10 @@
 
 namespace roomcut {
 
-/// A value that was derived from the data, and why.
+/// A value that was derived from the data, by the parameter's formula.
 struct SliceChoice {
   std::string parameter;
   double value;
-  std::string why;
 };
 
 struct SliceResult {

@@ -51,17 +51,16 @@ int main(int argc, char** argv) {
   info.revision = 1;
   info.summary =
       "Makes a building from a short JSON file: a scan with noise, and its exact, closed truth mesh.";
-  info.inputs = {{"scene", "", "scene file (schemas/scene.md)"}};
-  info.outputs = {
-      {"scan-out", "scan.ply", "the scan, in the format of its name: .ply, .ptx, .e57, .las, .laz"},
-      {"truth-out", "truth.off", "the truth: closed triangle mesh, normals into the wall"},
-      {"truth-json", "truth.json", "rooms, walls, openings, scanner positions"}};
+  info.inputs = {{"scene", "scene file (schemas/scene.md)"}};
+  info.outputs = {{"scan-out", "the scan, in the format of its name: .ply, .ptx, .e57, .las, .laz"},
+                  {"truth-out", "the truth: closed triangle mesh, normals into the wall"},
+                  {"truth-json", "rooms, walls, openings, scanner positions"}};
   info.options = {{"e57", "cartesian", "how an E57 file holds its points", {"cartesian", "spherical"}}};
   SynthesizeParams params;
   ParameterTable table = {
-      auto_number("points", params.points, "1", 1, 1e10, "Number of points; auto: as the scene says."),
-      auto_number("seed", params.seed, "1", 0, 9e15, "Seed of all random numbers; auto: as the scene says."),
-      auto_number("noise_m", params.noise_m, "m", 0, 1,
-                  "Standard deviation of the noise; auto: as the scene says.")};
+      auto_number("points", params.points, "1", 1, 1e10, "Number of points.", "as the scene says"),
+      auto_number("seed", params.seed, "1", 0, 9e15, "Seed of all random numbers.", "as the scene says"),
+      auto_number("noise_m", params.noise_m, "m", 0, 1, "Standard deviation of the noise.",
+                  "as the scene says")};
   return run_stage(argc, argv, info, std::move(table), [&](StageRun& stage) { run(stage, params); });
 }

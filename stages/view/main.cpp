@@ -6,6 +6,7 @@
 
 #include "common/cli/run_stage.h"
 #include "common/errors/codes.h"
+#include "common/pipeline/pipeline_table.h"
 #include "stages/view/server.h"
 
 namespace {
@@ -16,7 +17,8 @@ StageInfo info() {
   StageInfo stage;
   stage.name = "view";
   stage.summary = "Serves the report of a work folder on 127.0.0.1, takes edits and reruns the pipeline";
-  stage.inputs = {{"report", "report.html", "The page; its folder is the one that is served"}};
+  stage.inputs = {{"report", "The page; its folder is the one that is served", false, false,
+                   pipeline_table().path("report")}};
   stage.options = {{"port", "0", "Port to listen on; 0: any free one", {}},
                    {"pipeline", "", "Script that POST api/run starts: sh SCRIPT run", {}}};
   return stage;

@@ -11,12 +11,13 @@ using namespace roomcut;
 
 ParameterTable parameters(WeighFacesParams& p) {
   return {
-      auto_number("tau_m", p.tau_m, "m", 0.01, 0.5,
-                  "Half the edge of the bins in which coverage is counted."),
+      auto_number("tau_m", p.tau_m, "m", 0.01, 0.5, "Half the edge of the bins in which coverage is counted.",
+                  "0.6 x point spacing, 4 ... 15 cm"),
       auto_number("wall_reach_m", p.wall_reach_m, "m", 0.005, 0.5,
-                  "Largest distance of a wall's points from its line."),
+                  "Largest distance of a wall's points from its line.", "3 x noise, 4 ... 5.5 cm"),
       auto_number("level_reach_m", p.level_reach_m, "m", 0.005, 0.5,
-                  "Largest distance of a floor's points from its level."),
+                  "Largest distance of a floor's points from its level.",
+                  "max(6 cm, 6 x noise), noise up to 5 cm"),
       angle("azimuth_deg", p.azimuth_rad, 1.0, 45.0,
             "Largest angle between a wall point's normal and its line's."),
       number("top_share", p.top_share, "1", 0.0, 1.0,
@@ -46,13 +47,13 @@ void body(StageRun& run, const WeighFacesParams& params) {
   const CloudReader cloud(run.input("cloud"));
   FaceWeigher weigher(cells.complex, cloud.header(), params);
   if (!params.tau_m) {
-    run.chose("tau_m", weigher.tolerances().bin / 2, "from the point spacing");
+    run.chose("tau_m", weigher.tolerances().bin / 2);
   }
   if (!params.wall_reach_m) {
-    run.chose("wall_reach_m", weigher.tolerances().wall_reach, "from the noise");
+    run.chose("wall_reach_m", weigher.tolerances().wall_reach);
   }
   if (!params.level_reach_m) {
-    run.chose("level_reach_m", weigher.tolerances().level_reach, "from the noise");
+    run.chose("level_reach_m", weigher.tolerances().level_reach);
   }
   Progress progress = run.progress("points", cloud.header().points);
   cloud.for_each_tile([&](std::size_t, const CloudTile& tile) { weigher.add(tile); },
@@ -72,8 +73,7 @@ int main(int argc, char** argv) {
   info.revision = 6;
   info.summary =
       "Measures how far each face of the cell complex is covered by points, and which side of it is empty";
-  info.inputs = {{"cells", "50_partition/cells.h5", "Cell complex"},
-                 {"cloud", "10_ingest/cloud.h5", "Points in tiles"}};
-  info.outputs = {{"weights-out", "55_weigh_faces/weights.h5", "Weights of the faces"}};
+  info.inputs = {{"cells", "Cell complex"}, {"cloud", "Points in tiles"}};
+  info.outputs = {{"weights-out", "Weights of the faces"}};
   return run_stage(argc, argv, info, parameters(params), [&params](StageRun& run) { body(run, params); });
 }

@@ -25,8 +25,10 @@ import time
 from plot import plot
 
 SOURCE = os.path.realpath(os.path.join(os.path.dirname(__file__), "../.."))
-STAGES = ("ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines final_partition "
-          "final_weigh_faces final_raycast final_graphcut find_openings extract report").split()
+sys.path.insert(0, os.path.join(SOURCE, "tests"))
+from pipeline_table import RUNS  # noqa: E402
+
+STAGES = [run.name for run in RUNS]
 OWN = {"MAKEFLAGS", "MFLAGS", "MAKELEVEL", "SCAN", "WORK", "CONFIG", "JOBS", "UP", "UNIT", "TRUTH", "QUIET"}
 ENVIRONMENT = {key: value for key, value in os.environ.items() if key not in OWN}
 

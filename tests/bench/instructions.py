@@ -19,8 +19,11 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 RECORD = os.path.join(HERE, "instructions.txt")
 TOLERANCE = 0.10
 POINTS = 200000
+sys.path.insert(0, os.path.join(HERE, ".."))
+from pipeline_table import RUNS  # noqa: E402
+
 # The first pass of one whole run, in order.
-STAGES = "ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines".split()
+STAGES = [run.name for run in RUNS][:9]
 
 
 def count(build, folder, stage):

@@ -80,10 +80,11 @@ void params_dump(std::string_view bytes) {
   int count = 3;
   bool enabled = true;
   std::string way = "one";
-  ParameterTable table = {
-      number("share", share, "1", 0, 1, "A share."), auto_number("length_m", length, "m", 0, 10, "A length."),
-      integer("count", count, "1", 1, 9, "A count."), boolean("enabled", enabled, "A switch."),
-      choice("way", way, {"one", "other"}, "A way.")};
+  ParameterTable table = {number("share", share, "1", 0, 1, "A share."),
+                          auto_number("length_m", length, "m", 0, 10, "A length.", ""),
+                          integer("count", count, "1", 1, 9, "A count."),
+                          boolean("enabled", enabled, "A switch."),
+                          choice("way", way, {"one", "other"}, "A way.")};
   const PrivateFile file(bytes, ".json");
   load_dump(file.path(), "slice", table);
 }

@@ -3,8 +3,8 @@
 set -u
 unset MAKEFLAGS MFLAGS MAKELEVEL SCAN WORK CONFIG JOBS UP UNIT STATIONS TRUTH QUIET
 
-ALL="ingest slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines final_partition \
-final_weigh_faces final_raycast final_graphcut find_openings extract report"
+ALL=$(sed -n 's/^\([a-z][a-z_]*\) .*/\1/p' "$SOURCE/stages/pipeline.table" | tr '\n' ' ')
+ALL=${ALL% }
 passed=0
 failed=0
 place=$(mktemp -d "${TMPDIR:-/tmp}/roomcut büro XXXXXX") || exit 1

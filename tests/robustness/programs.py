@@ -1,20 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The programs as the pipeline calls them, each on a work folder that is the current one: what they read, what they write.
 
-The rows say what stages/pipeline.mk and pipeline.sh say; a file that two passes have goes by the names of both.
+The stages are those of stages/pipeline.table, the tools those of pipeline.sh; a file that two passes have goes by the names of both.
 """
 import os
+import sys
 from dataclasses import dataclass, field
 
-CLOUD = "10_ingest/cloud.h5"
-SLICES = "20_slice/slices.h5"
-HOUGH = "30_detect_lines/hough.h5"
-LINES_30, LINES_40, LINES_80 = (f"{s}/wall_lines.geojson" for s in ("30_detect_lines", "40_accept_lines", "80_refine_lines"))
-CELLS, WEIGHTS, TERMS, LABELS = "50_partition/cells.h5", "55_weigh_faces/weights.h5", "60_raycast/data_terms.h5", "70_graphcut/labels.h5"
-FCELLS, FWEIGHTS, FTERMS, FLABELS = (f"90_final/{n}.h5" for n in ("cells", "weights", "data_terms", "labels"))
-OPENINGS = "95_find_openings/openings.geojson"
-EDIT = "edits/wall_lines.geojson"
-MODEL, OBJ, SUMMARY, REPORT = "model.ply", "model.obj", "summary.json", "report.html"
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from pipeline_table import PLACES, RUNS, other_options  # noqa: E402
+
+CLOUD, SLICES, HOUGH, OPENINGS, EDIT = (PLACES[name] for name in ("cloud", "slices", "hough", "openings", "edit"))
+LINES_30, LINES_40, LINES_80 = (PLACES[name] for name in ("detected", "accepted", "refined"))
+CELLS, WEIGHTS, TERMS, LABELS = (PLACES[name] for name in ("cells", "weights", "terms", "labels"))
+FCELLS, FWEIGHTS, FTERMS, FLABELS = (PLACES[f"final_{name}"] for name in ("cells", "weights", "terms", "labels"))
+MODEL, OBJ, SUMMARY, REPORT = (PLACES[name] for name in ("model", "model_obj", "summary", "report"))
 SCAN, STATIONS, TRUTH, TRUTH_JSON, SCENE = "scan.ply", "inputs/stations.txt", "truth.off", "truth.json", "scene.json"
 
 
@@ -29,34 +29,16 @@ class Program:
     prints: bool = False  # its result is what it prints
 
 
-def final(binary, inputs, output, **options):
-    given = [word for name, path in options.items() for word in (f"--{name.replace('_', '-')}", path)]
-    return Program(binary, inputs, [output], ["--work", ".", *given], f"final_{binary}")
+def stage(run):
+    """A run as Make calls it. What enters from outside (parameters, edits, options of the scan) is there or not."""
+    inputs = [path for option, path in run.reads if option and path != EDIT]
+    scan = ["--scan", SCAN] if run.program == "ingest" else []
+    return Program(run.program, inputs + scan[1:], run.paths("writes"), ["--work", ".", *scan, *other_options(run)],
+                   "" if run.name == run.program else run.name)
 
-
-ALL_FINAL = [FCELLS, FWEIGHTS, FTERMS, FLABELS]
-REPORTED = [CLOUD, SLICES, LINES_30, HOUGH, LINES_40, CELLS, WEIGHTS, TERMS, LABELS, LINES_80, *ALL_FINAL, OPENINGS, MODEL, SUMMARY]
 
 # In the order of the pipeline.
-STAGES = {
-    "ingest": Program("ingest", [SCAN], [CLOUD], ["--work", ".", "--scan", SCAN]),
-    "slice": Program("slice", [CLOUD], [SLICES]),
-    "detect_lines": Program("detect_lines", [SLICES], [LINES_30, HOUGH]),
-    "accept_lines": Program("accept_lines", [LINES_30], [LINES_40]),
-    "partition": Program("partition", [LINES_40, SLICES], [CELLS]),
-    "weigh_faces": Program("weigh_faces", [CELLS, CLOUD], [WEIGHTS]),
-    "raycast": Program("raycast", [CELLS, WEIGHTS], [TERMS]),
-    "graphcut": Program("graphcut", [CELLS, WEIGHTS, TERMS], [LABELS]),
-    "refine_lines": Program("refine_lines", [LINES_40, CELLS, WEIGHTS, LABELS, CLOUD], [LINES_80]),
-    "final_partition": final("partition", [LINES_80, SLICES], FCELLS, lines=LINES_80, cells_out=FCELLS),
-    "final_weigh_faces": final("weigh_faces", [FCELLS, CLOUD], FWEIGHTS, cells=FCELLS, weights_out=FWEIGHTS),
-    "final_raycast": final("raycast", [FCELLS, FWEIGHTS], FTERMS, cells=FCELLS, weights=FWEIGHTS, terms_out=FTERMS),
-    "final_graphcut": final("graphcut", [FCELLS, FWEIGHTS, FTERMS], FLABELS, cells=FCELLS, weights=FWEIGHTS, terms=FTERMS,
-                            labels_out=FLABELS),
-    "find_openings": Program("find_openings", [FCELLS, FLABELS, CLOUD], [OPENINGS]),
-    "extract": Program("extract", [*ALL_FINAL, OPENINGS], [MODEL, OBJ, SUMMARY]),
-    "report": Program("report", REPORTED, [REPORT]),
-}
+STAGES = {run.name: stage(run) for run in RUNS}
 
 SCORES = ["evaluate/scores.json", "evaluate/distance.ply", "evaluate/distance.png"]
 

@@ -15,13 +15,13 @@ inline StageInfo sample_info() {
   info.name = "slice";
   info.revision = 7;
   info.summary = "A sample.";
-  info.inputs = {{.name = "cloud", .default_path = "10_ingest/cloud.h5", .description = "points"},
+  info.inputs = {{.name = "cloud", .description = "points"},
                  {.name = "edit",
-                  .default_path = "edits/e.txt",
                   .description = "edit",
                   .optional = true,
-                  .by_bytes = true}};
-  info.outputs = {{.name = "slices", .default_path = "20_slice/slices.h5", .description = "slices"}};
+                  .by_bytes = true,
+                  .default_path = "edits/e.txt"}};
+  info.outputs = {{.name = "slices", .description = "slices"}};
   info.options = {{"up", "z", "which way is up", {"x", "y", "z"}}};
   return info;
 }
@@ -46,7 +46,9 @@ inline Outcome run_sample(
   }
   argv.push_back(nullptr);
   double width = 0.5;
-  ParameterTable table{number("width_m", width, "m", 0, 10, "How wide.")};
+  std::optional<double> depth;
+  ParameterTable table{number("width_m", width, "m", 0, 10, "How wide."),
+                       auto_number("depth_m", depth, "m", 0, 10, "How deep.", "twice the noise")};
   ::testing::internal::CaptureStdout();
   ::testing::internal::CaptureStderr();
   Outcome outcome;

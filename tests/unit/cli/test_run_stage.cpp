@@ -29,7 +29,7 @@ void write_cloud(const std::filesystem::path& path, double value = 1) {
 TEST(RunStage, prints_its_parameters_and_needs_no_files_for_it) {
   const Outcome o = run_sample({"--dump-params", "--set", "width_m=2"});
   EXPECT_EQ(o.exit_code, 0);
-  EXPECT_EQ(o.out, "{\"params\":{\"width_m\":2},\"revision\":7,\"stage\":\"slice\"}\n");
+  EXPECT_EQ(o.out, "{\"params\":{\"depth_m\":\"auto\",\"width_m\":2},\"revision\":7,\"stage\":\"slice\"}\n");
   EXPECT_EQ(o.err, "");
 }
 
@@ -89,11 +89,11 @@ TEST(RunStage, finds_files_below_the_work_folder_or_where_an_option_says) {
 
 TEST(RunStage, demands_files_that_have_no_default) {
   StageInfo info = sample_info();
-  info.inputs[0].default_path = "";
+  info.inputs[0].name = "scan";  // of which the pipeline table says nothing
   const Outcome o = run_sample(
       {}, [](StageRun&, double) {}, info);
   EXPECT_EQ(o.exit_code, 2);
-  EXPECT_TRUE(has(o.err, "error[U01] --cloud: is required")) << o.err;
+  EXPECT_TRUE(has(o.err, "error[U01] --scan: is required")) << o.err;
 }
 
 TEST(RunStage, provenance_names_stage_parameters_and_inputs_without_absolute_paths) {
@@ -105,7 +105,7 @@ TEST(RunStage, provenance_names_stage_parameters_and_inputs_without_absolute_pat
     const Provenance& p = run.provenance();
     EXPECT_EQ(p.stage, "slice");
     EXPECT_EQ(p.stage_revision, 7);
-    EXPECT_EQ(p.params_json, "{\"width_m\":0.5}");
+    EXPECT_EQ(p.params_json, "{\"depth_m\":\"auto\",\"width_m\":0.5}");
     EXPECT_EQ(p.params_sha256, sha256_hex(p.params_json));
     ASSERT_EQ(p.inputs.size(), 2U);
     EXPECT_EQ(p.inputs[0].artefact, "cloud");
@@ -122,7 +122,7 @@ TEST(RunStage, provenance_of_a_users_file_holds_its_name_only) {
   const TemporaryFolder folder;
   put_bytes(folder / "scan.ply", "ply");
   StageInfo info = sample_info();
-  info.inputs = {{.name = "scan", .default_path = "", .description = "scan"}};
+  info.inputs = {{.name = "scan", .description = "scan"}};
   run_sample(
       {"--work", folder / "w", "--scan", folder / "scan.ply", "-q"},
       [&](StageRun& run, double) {
@@ -136,7 +136,8 @@ TEST(RunStage, provenance_of_a_users_file_holds_its_name_only) {
 TEST(RunStage, prints_what_was_chosen_counted_and_warned_of_and_logs_it) {
   const TemporaryFolder folder;
   const auto body = [](StageRun& run, double) {
-    run.chose("width_m", 0.25, "twice the noise");
+    run.chose("depth_m", 0.25);
+    EXPECT_THROW(run.chose("unknown_m", 1), std::logic_error);
     run.count("cells", 320);
     run.count("area", 12.34567, "m^2");
     run.count("nothing", std::numeric_limits<double>::quiet_NaN());
@@ -147,7 +148,7 @@ TEST(RunStage, prints_what_was_chosen_counted_and_warned_of_and_logs_it) {
   const Outcome o = run_sample({"--work", folder.path(), "--threads", "3"}, body);
   EXPECT_EQ(o.exit_code, 0);
   EXPECT_EQ(o.out, "");
-  EXPECT_TRUE(has(o.err, "slice: width_m = 0.25 (twice the noise)")) << o.err;
+  EXPECT_TRUE(has(o.err, "slice: depth_m = 0.25 (twice the noise)")) << o.err;
   EXPECT_TRUE(has(o.err, "slice: cells 320, area 12.35 m^2")) << o.err;
   EXPECT_TRUE(has(o.err, "slice: 2 warnings:")) << o.err;
   const Json log = Json::parse(bytes_of(folder / "logs/slice.json"));
@@ -162,6 +163,24 @@ TEST(RunStage, prints_what_was_chosen_counted_and_warned_of_and_logs_it) {
   EXPECT_EQ(log["warnings"], Json({"first", "second"}));
   EXPECT_GT(log["peak_memory_mb"], 1.0);
   EXPECT_EQ(run_sample({"--work", folder.path(), "-q"}, body).err, "");
+}
+
+TEST(RunStage, describes_its_files_options_and_parameters_as_JSON) {
+  const Outcome o = run_sample({"--describe", "--set", "width_m=2"});
+  EXPECT_EQ(o.exit_code, 0);
+  const Json described = Json::parse(o.out);
+  EXPECT_EQ(described["name"], "slice");
+  EXPECT_EQ(described["revision"], 7);
+  EXPECT_EQ(described["inputs"][0]["option"], "cloud");
+  EXPECT_EQ(described["inputs"][0]["default"], "10_ingest/cloud.h5") << "from the pipeline table";
+  EXPECT_EQ(described["inputs"][1]["optional"], true);
+  EXPECT_EQ(described["outputs"][0]["default"], "20_slice/slices.h5");
+  EXPECT_EQ(described["options"][0]["choices"], Json::array({"x", "y", "z"}));
+  EXPECT_EQ(described["parameters"][0]["name"], "width_m");
+  EXPECT_EQ(described["parameters"][0]["default"], 0.5) << "whatever --set says";
+  EXPECT_EQ(described["parameters"][0]["highest"], 10);
+  EXPECT_EQ(described["parameters"][1]["default"], "auto");
+  EXPECT_EQ(described["parameters"][1]["formula"], "twice the noise");
 }
 
 TEST(RunStage, keeps_a_log_only_when_a_place_is_given) {

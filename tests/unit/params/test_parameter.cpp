@@ -48,7 +48,7 @@ TEST(Parameter, angle_is_in_degrees_outside_and_radians_inside) {
 
 TEST(Parameter, auto_is_taken_only_where_it_is_allowed) {
   std::optional<double> width;
-  const Parameter p = auto_number("bandwidth_m", width, "m", 0.001, 0.1, "");
+  const Parameter p = auto_number("bandwidth_m", width, "m", 0.001, 0.1, "", "");
   EXPECT_EQ(p.get(), "\"auto\"");
   EXPECT_EQ(p.default_text, "auto");
   p.set("0.02");

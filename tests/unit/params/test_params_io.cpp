@@ -19,7 +19,7 @@ struct Params {
 
   ParameterTable table() {
     return {number("mu_m", mu_m, "m", 0.001, 10, "Price of a face."),
-            auto_number("step_m", step_m, "m", 0.01, 1, "Width of a step."),
+            auto_number("step_m", step_m, "m", 0.01, 1, "Width of a step.", "2 x noise"),
             integer("rays", rays, "1", 1, 1000, "Rays a cell."),
             boolean("enabled", enabled, "Whether it runs."),
             choice("mode", mode, {"fast", "exact"}, "How."),
@@ -177,7 +177,7 @@ TEST_F(ParamsIo, help_names_every_parameter_with_default_unit_and_range) {
     EXPECT_NE(help.find("  " + p.name + ": " + p.default_text), std::string::npos) << p.name;
     EXPECT_NE(help.find(p.description), std::string::npos) << p.name;
   }
-  EXPECT_NE(help.find("0.01 … 1 m, or auto"), std::string::npos);
+  EXPECT_NE(help.find("0.01 … 1 m, or auto: 2 x noise"), std::string::npos);
 }
 
 TEST_F(ParamsIo, yaml_block_reads_back_to_the_same_values) {
@@ -186,7 +186,8 @@ TEST_F(ParamsIo, yaml_block_reads_back_to_the_same_values) {
   const std::string block = parameter_yaml("graphcut", "The cut", table);
   EXPECT_EQ(errors_of(block), "");
   EXPECT_EQ(params_json(table), before);
-  EXPECT_NE(block.find("  # Width of a step [0.01 … 1 m, or auto]\n  step_m: auto\n"), std::string::npos)
+  EXPECT_NE(block.find("  # Width of a step [0.01 … 1 m, or auto: 2 x noise]\n  step_m: auto\n"),
+            std::string::npos)
       << block;
   EXPECT_EQ(parameter_yaml("accept_lines", "The door", {}), "# The door\naccept_lines:  # no parameters\n");
 }
