@@ -153,8 +153,8 @@ void read_summary(const fs::path& path, RunFacts& run) {
 }
 
 void read_plan(const fs::path& folder, RunFacts& run) {
-  for (const auto& [cells_file, labels_file] : {std::pair{"90_final/cells.h5", "90_final/labels.h5"},
-                                                {"50_partition/cells.h5", "70_graphcut/labels.h5"}}) {
+  for (const auto& [cells_file, labels_file] :
+       {std::pair{path_of("final_cells"), path_of("final_labels")}, {path_of("cells"), path_of("labels")}}) {
     if (there(folder / cells_file) && there(folder / labels_file)) {
       CellsFile cells = read_cells(folder / cells_file);
       Labels labels = read_labels(folder / labels_file, cells);

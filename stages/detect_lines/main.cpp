@@ -27,9 +27,10 @@ ParameterTable parameters(DetectLinesParams& p) {
       angle("merge_angle_deg", p.merge_angle_rad, 0.0, 45.0,
             "Wall lines that differ less than this in angle may be joined."),
       auto_number("hough_distance_m", p.hough_distance_m, "m", 0.001, 0.2,
-                  "Distance step of the Hough accumulator.", "noise, 1 ... 2 cm"),
+                  "Distance step of the Hough accumulator.", "noise (a preferred number), 1 ... 2 cm"),
       auto_number("hough_angle_deg", p.hough_angle_deg, "deg", 0.05, 5.0,
-                  "Angle step of the Hough accumulator.", "8 cm / (2 x half diagonal), 0.1 ... 0.25 deg"),
+                  "Angle step of the Hough accumulator.",
+                  "8 cm / (2 x half diagonal, a preferred number), 0.1 ... 0.25 deg"),
   };
 }
 

@@ -12,7 +12,7 @@ using namespace roomcut;
 ParameterTable parameters(WeighFacesParams& p) {
   return {
       auto_number("tau_m", p.tau_m, "m", 0.01, 0.5, "Half the edge of the bins in which coverage is counted.",
-                  "0.6 x point spacing, 4 ... 15 cm"),
+                  "0.6 x point spacing (a preferred number), 4 ... 15 cm"),
       auto_number("wall_reach_m", p.wall_reach_m, "m", 0.005, 0.5,
                   "Largest distance of a wall's points from its line.", "3 x noise, 4 ... 5.5 cm"),
       auto_number("level_reach_m", p.level_reach_m, "m", 0.005, 0.5,
