@@ -13,6 +13,7 @@ import point_stream
 
 BLOCK = 500_000  # points: ten of the usual chunks, so that all cores have some
 MOST_IN_CHUNK = 1 << 24  # points of one LAZ chunk; writers use 50,000
+SHORTEST_RECORD = 54  # bytes
 VARIABLE = 0xFFFFFFFF
 
 
@@ -30,6 +31,17 @@ def coordinate_system(header):
     values = struct.unpack(f"<{len(keys) // 2}H", keys[:len(keys) // 2 * 2])
     codes = [values[i + 3] for i in range(4, len(values) - 3, 4) if values[i] in (2048, 3072) and values[i + 1] == 0]
     return "EPSG:" + "+".join(map(str, codes[-1:])) if codes else None
+
+
+def check_records(path):
+    """The records before the points against the room that they have: laspy reads on for as many as a header claims."""
+    with open(path, "rb") as file:
+        start = file.read(104)
+    if len(start) < 104:
+        raise point_stream.ScanError("C05", "the file ends within its header")
+    size, points, records = struct.unpack_from("<HII", start, 94)
+    if points > os.path.getsize(path) or size + SHORTEST_RECORD * records > points:
+        raise point_stream.ScanError("C04", f"its header is damaged: {records} records before the points, which begin at byte {points}")
 
 
 def check_plain(path, header):
@@ -71,6 +83,7 @@ def blocks(path):
 
 
 def decode(path, stream):
+    check_records(path)
     with laspy.open(path, read_evlrs=False) as reader:
         header = reader.header
     if header.are_points_compressed:
