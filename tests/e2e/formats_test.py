@@ -311,6 +311,30 @@ class Decoders(unittest.TestCase):
         for ending, cloud in clouds.items():
             self.assertEqual(cloud, clouds["ply"], ending)
 
+    def test_threads_do_not_matter_to_a_decoded_scan_nor_does_reading_it_again_to_level_it(self):
+        lean = turn(math.radians(1.2), (1, 0.5, 0))
+        write_las(self.path("t.laz"), rotate(lean, room(400000, (9.0, 14.0, 2.6))), withheld=numpy.arange(400000) % 3 == 0)
+        clouds = []
+        for threads in "1", "2", "5":
+            done = ingest(self.path("t.laz"), self.path("w"), "--threads", threads)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("it was levelled by its floors", done.stderr)
+            self.assertEqual(counts(self.path("w"))["invalid"], 133334)
+            with open(self.path("w/10_ingest/cloud.h5"), "rb") as file:
+                clouds.append(file.read())
+        self.assertEqual(clouds[0], clouds[1])
+        self.assertEqual(clouds[0], clouds[2])
+
+    def test_promises_that_no_file_can_hold_are_refused_at_once(self):
+        write_las(self.path("h.laz"), room(3000), "1.4", 6)
+        with open(self.path("h.laz"), "r+b") as file:
+            file.seek(247)
+            file.write(struct.pack("<Q", 1 << 40))
+        done = ingest(self.path("h.laz"), self.path("w"))
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("error[C05]", done.stderr)
+        self.assertIn("promise 1099511627776 points", done.stderr)
+
     def own_ingest(self):
         """A copy of the program in a build folder of its own, whose decoders can be replaced; its path."""
         os.mkdir(self.path("bin"))
