@@ -228,6 +228,9 @@ void run_ingest(StageRun& run, const IngestParams& params) {
   for (const std::string& note : reader->late_notes()) {
     run.note(note);
   }
+  for (const std::string& warning : reader->late_warnings()) {
+    run.warn(warning);
+  }
   const Lean lean = lean_of(cloud.summary.estimates.lean);
   if (wants_levelling(run, lean)) {
     cloud = {};  // what was written is not published

@@ -335,6 +335,17 @@ class Decoders(unittest.TestCase):
         self.assertIn("error[C05]", done.stderr)
         self.assertIn("promise 1099511627776 points", done.stderr)
 
+    def test_points_outside_of_the_box_in_the_header_are_questioned(self):
+        for ending in ("las", "laz"):
+            write_las(self.path("b." + ending), room(), offset=(1, 2, 3))
+            self.assertNotIn("outside of the box", ingest(self.path("b." + ending), self.path("w")).stderr)
+            with open(self.path("b." + ending), "r+b") as file:
+                file.seek(131)  # x scale
+                file.write(struct.pack("<d", 0.0002))
+            done = ingest(self.path("b." + ending), self.path("w"))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("outside of the box that its header states", done.stderr)
+
     def own_ingest(self):
         """A copy of the program in a build folder of its own, whose decoders can be replaced; its path."""
         os.mkdir(self.path("bin"))
