@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 
+#include "stages/ingest/duplicates.h"
 #include "stages/ingest/ingest.h"
 #include "stages/ingest/large_tile.h"
 #include "stages/ingest/surface_tile.h"
@@ -25,6 +26,7 @@ struct FinishedTile {
   CloudTile cloud;
   std::unique_ptr<LargeTile> large;
   SurfaceEstimates estimates;
+  std::uint64_t duplicates = 0;
   bool refused = false;
 };
 
@@ -41,6 +43,7 @@ class FinishedTiles {
     free_.pop_back();
     tile->estimates = {};
     tile->refused = false;
+    tile->duplicates = 0;
     tile->large.reset();
     return tile;
   }
@@ -61,6 +64,7 @@ struct Workshop {
   TileRuns runs;
   TileGrid grid;
   SurfaceFinder finder;
+  DuplicateCounter duplicates;
 };
 
 std::uint64_t layers_of(const std::vector<KeptTile>& tiles, std::uint32_t tile) {
@@ -97,6 +101,7 @@ void class_tile(const TiledScan& scan, const KeptTile& tile, const UnitScale& sc
     finished.refused = check.refused();
   }
   make_cloud_part(workshop.grid, surfaces, normals && !finished.refused, finished.cloud);
+  finished.duplicates = workshop.duplicates.count(workshop.grid);
 }
 
 void class_large_tile(const TiledScan& scan, const KeptTile& tile, const UnitScale& scale,
@@ -167,11 +172,12 @@ SurfaceSummary class_tiles(const TiledScan& scan, const IngestParams& params, co
       }
     };
     if (tile->large) {
-      tile->large->hand_over(take_part);
+      tile->duplicates = tile->large->hand_over(take_part);
       tile->large.reset();
     } else {
       take_part(tile->cloud, true);
     }
+    summary.duplicates += tile->duplicates;
     tiles.give_back(tile);
   };
   using Tile = std::shared_ptr<FinishedTile>;

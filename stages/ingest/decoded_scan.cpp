@@ -67,6 +67,7 @@ class DecodedReader : public ScanReader {
   /// Only here it is known that the decoder came to its end.
   void check_total(std::uint64_t /*points*/) const override { wait_for(~std::uint64_t{0}); }
   DroppedPoints dropped() const override { return stream_->dropped(); }
+  std::vector<std::string> late_warnings() const override { return stream_->warnings(); }
   std::vector<std::string> late_notes() const override {
     return {stream_->notes().begin() + static_cast<std::ptrdiff_t>(said_), stream_->notes().end()};
   }

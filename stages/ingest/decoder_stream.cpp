@@ -144,6 +144,9 @@ bool DecoderStream::take_text(char kind, std::uint64_t size) {
     case 'N':
       notes_.push_back(text);
       return true;
+    case 'W':
+      warnings_.push_back(text);
+      return begun_;
     case 'C':
       crs_ = text;
       return true;

@@ -50,6 +50,8 @@ class DecoderStream {
   const std::vector<Vec3>& stations() const { return stations_; }
   /// With read_points() some may be added.
   const std::vector<std::string>& notes() const { return notes_; }
+  /// After read_points().
+  const std::vector<std::string>& warnings() const { return warnings_; }
   /// The coordinate system as the file states it; empty when it does not.
   const std::string& crs() const { return crs_; }
   const DroppedPoints& dropped() const { return dropped_; }
@@ -70,7 +72,7 @@ class DecoderStream {
   DecoderProcess process_;
   StreamHead head_;
   std::vector<Vec3> stations_;
-  std::vector<std::string> notes_;
+  std::vector<std::string> notes_, warnings_;
   std::string crs_;
   DroppedPoints dropped_;
   std::vector<std::byte> buffer_;

@@ -70,6 +70,7 @@ CloudHeader header_of(const TiledScan& scan, const std::vector<Vec3>& stations, 
 struct SurfaceSummary {
   SurfaceEstimates estimates;
   std::uint64_t tiles_with_refused_normals = 0;
+  std::uint64_t duplicates = 0;  ///< kept points that repeat another one's coordinates (duplicates.h)
 };
 
 /// Receives the points of a tile, those of one with many points in several parts; true: the last of its tile.

@@ -48,6 +48,8 @@ std::uint64_t memory_bytes(const StageRun& run) {
   return mib << 20;
 }
 
+constexpr double kManyDuplicates = 0.01;  // of the points: fewer may come of rounded coordinates
+
 void report(StageRun& run, const TiledScan& scan, const SurfaceSummary& summary, const CloudHeader& header) {
   const IngestCounts& counts = scan.counts;
   run.count("points read", static_cast<double>(counts.read));
@@ -55,6 +57,7 @@ void report(StageRun& run, const TiledScan& scan, const SurfaceSummary& summary,
   run.count("no return", static_cast<double>(counts.no_returns));
   run.count("invalid", static_cast<double>(counts.invalid));
   run.count("not finite", static_cast<double>(counts.not_finite));
+  run.count("duplicates", static_cast<double>(summary.duplicates));
   run.count("thin", static_cast<double>(counts.thin));
   run.count("ghosts", static_cast<double>(counts.ghosts));
   run.count("noise", 1000 * header.noise_m, "mm");
@@ -69,6 +72,11 @@ void report(StageRun& run, const TiledScan& scan, const SurfaceSummary& summary,
   }
   if (counts.not_finite > 0) {
     run.warn(std::to_string(counts.not_finite) + " points with NaN or infinite coordinates were dropped");
+  }
+  if (static_cast<double>(summary.duplicates) > kManyDuplicates * static_cast<double>(counts.kept)) {
+    run.warn(std::to_string(summary.duplicates) +
+             " points are duplicates: they have exactly the coordinates of another one; they were kept, and "
+             "the density counts them twice");
   }
   if (counts.thin > 0) {
     run.warn("the model ends where the points get thin: about " +
@@ -221,6 +229,9 @@ void run_ingest(StageRun& run, const IngestParams& params) {
   MadeCloud cloud = make_cloud(run, *reader, settings, params, stations, digest);
   for (const std::string& note : reader->late_notes()) {
     run.note(note);
+  }
+  for (const std::string& warning : reader->late_warnings()) {
+    run.warn(warning);
   }
   const Lean lean = lean_of(cloud.summary.estimates.lean, cloud.floors);
   if (wants_levelling(run, lean)) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "stages/ingest/duplicates.h"
+
 namespace roomcut {
 
 namespace {
@@ -116,13 +118,17 @@ bool LargeTile::find_surfaces(SurfaceEstimates& estimates) {
   return store_.has_hints() && !use_normals_;
 }
 
-void LargeTile::hand_over(const std::function<void(const CloudTile&, bool)>& take) {
+std::uint64_t LargeTile::hand_over(const std::function<void(const CloudTile&, bool)>& take) {
   CloudTile part;
+  DuplicateCounter counter;
+  std::uint64_t duplicates = 0;
   for (const Band& band : bands_) {
     sort_band(band);
     make_cloud_part(grid_, *surfaces_, use_normals_, part);
+    duplicates += counter.count(grid_);
     take(part, &band == &bands_.back());
   }
+  return duplicates;
 }
 
 }  // namespace roomcut

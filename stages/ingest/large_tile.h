@@ -23,8 +23,8 @@ class LargeTile {
   bool find_surfaces(SurfaceEstimates& estimates);
 
   /// Then: calls take(points, last) with the tile's own points band by band, each sorted by class, then
-  /// voxel, then file order.
-  void hand_over(const std::function<void(const CloudTile&, bool)>& take);
+  /// voxel, then file order. Returns the duplicates among them (duplicates.h).
+  std::uint64_t hand_over(const std::function<void(const CloudTile&, bool)>& take);
 
  private:
   struct Band {

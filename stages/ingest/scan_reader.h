@@ -65,8 +65,9 @@ class ScanReader {
   }
   /// After check_total(): what is in no block although it stands in the file.
   virtual DroppedPoints dropped() const { return {}; }
-  /// After check_total(): notes that could not be given before all points were read.
+  /// After check_total(): notes and warnings that could not be given before all points were read.
   virtual std::vector<std::string> late_notes() const { return {}; }
+  virtual std::vector<std::string> late_warnings() const { return {}; }
 
  private:
   std::vector<std::string> warnings_;

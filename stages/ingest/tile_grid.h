@@ -65,4 +65,23 @@ class TileGrid {
   std::array<VoxelLevel, fixed_grid::kLevels> levels_;
 };
 
+/// Calls visit(voxel, first point, last + 1) for the voxels of the last band without the tile's halo.
+template <class Visit>
+void for_own_voxels(const TileGrid& grid, Visit&& visit) {
+  const VoxelLevel& level = grid.level(0);
+  const int halo = level.halo();
+  std::uint32_t first = 0;
+  for (int k = grid.columns().begin; k < grid.columns().end; ++k) {
+    const int iy = k / level.columns;
+    const int ix = k % level.columns;
+    const bool own = iy >= halo && iy < level.columns - halo && ix >= halo && ix < level.columns - halo;
+    const auto column = static_cast<std::size_t>(k);
+    for (std::uint32_t voxel = level.begin[column]; voxel < level.begin[column + 1]; ++voxel) {
+      const std::uint32_t last = first + level.moments[voxel].points();
+      if (own) visit(voxel, first, last);
+      first = last;
+    }
+  }
+}
+
 }  // namespace roomcut

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """E57, LAS and LAZ: what the decoders give is what an independent reading gives, damaged files are errors, and the formats of one
 building give one cloud. Runs in the environment that `make deps` makes (BUILD/python); without it the test is skipped."""
-import json
 import math
 import os
 import re
@@ -15,159 +14,7 @@ import tempfile
 import time
 import unittest
 
-SOURCE, BUILD = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
-PYTHON = os.path.join(BUILD, "python", "bin", "python3")
-if not os.path.exists(PYTHON):
-    print("skipped: no Python environment for E57, LAS and LAZ (make deps)")
-    sys.exit(77)
-if os.path.realpath(sys.prefix) != os.path.realpath(os.path.join(BUILD, "python")):
-    os.execv(PYTHON, [PYTHON, *sys.argv])
-
-import laspy  # noqa: E402  only there in the environment
-import numpy  # noqa: E402
-import pye57  # noqa: E402
-from pye57 import libe57  # noqa: E402
-
-DATA = os.path.join(SOURCE, "..", "shared", "data", "formats")
-INGEST = os.path.join(BUILD, "bin", "ingest")
-
-
-def decode(path):
-    """What a decoder streams, taken apart as decoders/point_stream.py describes it: points, stations, counts, error; the texts in `said`."""
-    name = "e57" if path.endswith(".e57") else "las"
-    done = subprocess.run([PYTHON, "-Es", os.path.join(BUILD, "decoders", name + ".py"), path], capture_output=True, check=False)
-    parts, stations, dropped, error, at = [], [], None, None, 0
-    form, scale, offset = 0, 1, 0
-    said.clear()
-    while at < len(done.stdout):
-        kind, size = done.stdout[at:at + 1], struct.unpack_from("<Q", done.stdout, at + 1)[0]
-        payload = done.stdout[at + 9:at + 9 + size]
-        at += 9 + size
-        if kind == b"B":
-            _, form, *numbers = struct.unpack("<2Q6d", payload)
-            scale, offset = numpy.array(numbers[:3]), numpy.array(numbers[3:])
-        elif kind == b"P":
-            parts.append(numpy.frombuffer(payload, [("point", "<i4" if form == 1 else "<f8", 3), ("normal", "<f4", 3 * (form == 2))]))
-        elif kind == b"S":
-            stations.append(struct.unpack("<3d", payload))
-        elif kind == b"D":
-            dropped = struct.unpack("<2Q", payload)
-        elif kind == b"X":
-            error = payload.decode()
-        elif kind in b"NC":
-            said.setdefault(kind, []).append(payload.decode())
-    points = numpy.concatenate([part["point"] for part in parts]) if parts else numpy.empty((0, 3))
-    said["normals"] = numpy.concatenate([part["normal"] for part in parts]) if parts else None
-    return (points * scale + offset if form == 1 else points), stations, dropped, error
-
-
-said = {}
-
-
-def ingest(path, work, *options):
-    return subprocess.run([INGEST, "--scan", path, "--work", work, *options], capture_output=True, text=True, check=False)
-
-
-def counts(work):
-    with open(os.path.join(work, "logs", "ingest.json"), encoding="utf-8") as text:
-        return {count["what"]: count["value"] for count in json.load(text)["counts"]}
-
-
-def gone(process):
-    """Whether it ends within ten seconds."""
-    for _ in range(100):
-        try:
-            with open(f"/proc/{process}/stat", encoding="utf-8", errors="replace") as file:
-                if file.read().rsplit(")", 1)[1].split()[0] == "Z":
-                    return True
-        except OSError:
-            return True
-        time.sleep(0.1)
-    return False
-
-
-def turn(angle, axis):
-    """Unit quaternion w x y z."""
-    axis = numpy.array(axis, float) / numpy.linalg.norm(axis)
-    return numpy.concatenate(([math.cos(angle / 2)], math.sin(angle / 2) * axis))
-
-
-def rotate(quaternion, points):
-    w, vector = quaternion[0], quaternion[1:]
-    return points + 2 * numpy.cross(vector, numpy.cross(vector, points) + w * points)
-
-
-def room(count=20000, size=(6.0, 5.0, 2.6), seed=1):
-    draw = numpy.random.default_rng(seed)
-    points = draw.random((count, 3)) * size
-    face = draw.integers(0, 6, count)
-    for axis in range(3):
-        points[face == axis, axis] = draw.normal(0, 0.003, (face == axis).sum())
-        points[face == axis + 3, axis] = draw.normal(size[axis], 0.003, (face == axis + 3).sum())
-    return points
-
-
-def write_e57(path, scans):
-    """scans: dicts with points (local), and optionally rotation, translation, spherical, scaled (step) and invalid (a mask)."""
-    file = pye57.E57(path, mode="w")
-    image = file.image_file
-    for number, scan in enumerate(scans):
-        local = scan["points"]
-        if scan.get("spherical"):
-            distance = numpy.linalg.norm(local, axis=1)
-            columns = {"sphericalRange": distance, "sphericalAzimuth": numpy.arctan2(local[:, 1], local[:, 0]),
-                       "sphericalElevation": numpy.arcsin(local[:, 2] / distance)}
-        else:
-            columns = dict(zip(("cartesianX", "cartesianY", "cartesianZ"), local.T))
-        node = libe57.StructureNode(image)
-        node.set("guid", libe57.StringNode(image, f"{{scan {number}}}"))
-        if "normals" in scan:
-            if number == 0:  # once in a file
-                image.extensionsAdd("nor", "http://www.libe57.org/E57_NOR_surface_normals.txt")
-            columns |= dict(zip(("nor:normalX", "nor:normalY", "nor:normalZ"), scan["normals"].T))
-        pose = libe57.StructureNode(image)
-        for member, names in (("rotation", "wxyz"), ("translation", "xyz")):
-            if member in scan:
-                part = libe57.StructureNode(image)
-                for name, value in zip(names, scan[member]):
-                    part.set(name, libe57.FloatNode(image, float(value)))
-                pose.set(member, part)
-        if "rotation" in scan or "translation" in scan:
-            node.set("pose", pose)
-        prototype = libe57.StructureNode(image)
-        for name, values in columns.items():
-            if "scaled" in scan:
-                step = scan["scaled"]
-                low, high = (int(v) for v in (numpy.floor(values.min() / step), numpy.ceil(values.max() / step)))
-                prototype.set(name, libe57.ScaledIntegerNode(image, low, low, high, step, 0.0))
-            else:
-                prototype.set(name, libe57.FloatNode(image, 0.0, libe57.E57_DOUBLE, -1e9, 1e9))
-        if "invalid" in scan:
-            state = "sphericalInvalidState" if scan.get("spherical") else "cartesianInvalidState"
-            prototype.set(state, libe57.IntegerNode(image, 0, 0, 2))
-            columns[state] = scan["invalid"].astype(float)
-        points = libe57.CompressedVectorNode(image, prototype, libe57.VectorNode(image, True))
-        node.set("points", points)
-        file.data3d.append(node)
-        if len(local) == 0:
-            continue
-        buffers = libe57.VectorSourceDestBuffer()
-        kept = [numpy.ascontiguousarray(values, float) for values in columns.values()]
-        for name, values in zip(columns, kept):
-            buffers.append(libe57.SourceDestBuffer(image, name, values, len(values), True, True))
-        writer = points.writer(buffers)
-        writer.write(len(local))
-        writer.close()
-    file.close()
-
-
-def write_las(path, points, version="1.2", point_format=1, scale=0.0001, offset=(0, 0, 0), withheld=None):
-    las = laspy.LasData(laspy.LasHeader(version=version, point_format=point_format))
-    las.header.scales, las.header.offsets = [scale] * 3, offset
-    las.x, las.y, las.z = points.T
-    if withheld is not None:
-        las.withheld = withheld
-    las.write(path)
+from format_files import BUILD, DATA, INGEST, counts, decode, gone, ingest, laspy, numpy, pye57, room, rotate, said, turn, write_e57, write_las
 
 
 class Decoders(unittest.TestCase):
@@ -310,6 +157,41 @@ class Decoders(unittest.TestCase):
             clouds[ending] = re.sub(r"HDF5 .*\n", "", dump)
         for ending, cloud in clouds.items():
             self.assertEqual(cloud, clouds["ply"], ending)
+
+    def test_threads_do_not_matter_to_a_decoded_scan_nor_does_reading_it_again_to_level_it(self):
+        lean = turn(math.radians(1.2), (1, 0.5, 0))
+        write_las(self.path("t.laz"), rotate(lean, room(400000, (9.0, 14.0, 2.6))), withheld=numpy.arange(400000) % 3 == 0)
+        clouds = []
+        for threads in "1", "2", "5":
+            done = ingest(self.path("t.laz"), self.path("w"), "--threads", threads)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("it was levelled by its floors", done.stderr)
+            self.assertEqual(counts(self.path("w"))["invalid"], 133334)
+            with open(self.path("w/10_ingest/cloud.h5"), "rb") as file:
+                clouds.append(file.read())
+        self.assertEqual(clouds[0], clouds[1])
+        self.assertEqual(clouds[0], clouds[2])
+
+    def test_promises_that_no_file_can_hold_are_refused_at_once(self):
+        write_las(self.path("h.laz"), room(3000), "1.4", 6)
+        with open(self.path("h.laz"), "r+b") as file:
+            file.seek(247)
+            file.write(struct.pack("<Q", 1 << 40))
+        done = ingest(self.path("h.laz"), self.path("w"))
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("error[C05]", done.stderr)
+        self.assertIn("promise 1099511627776 points", done.stderr)
+
+    def test_points_outside_of_the_box_in_the_header_are_questioned(self):
+        for ending in ("las", "laz"):
+            write_las(self.path("b." + ending), room(), offset=(1, 2, 3))
+            self.assertNotIn("outside of the box", ingest(self.path("b." + ending), self.path("w")).stderr)
+            with open(self.path("b." + ending), "r+b") as file:
+                file.seek(131)  # x scale
+                file.write(struct.pack("<d", 0.0002))
+            done = ingest(self.path("b." + ending), self.path("w"))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("outside of the box that its header states", done.stderr)
 
     def own_ingest(self):
         """A copy of the program in a build folder of its own, whose decoders can be replaced; its path."""

@@ -30,3 +30,21 @@ def make(source, build, folder, points=POINTS):
     # The edit is not part of the run above: accept_lines and diff_lines find it when a test puts it into its place.
     shutil.copy(os.path.join(folder, programs.LINES_40), os.path.join(folder, "edit.geojson"))
     return folder
+
+
+def python_of(build):
+    return os.path.join(build, "python", "bin", "python3")
+
+
+def can_be_surveyed(build):
+    return os.path.exists(python_of(build))
+
+
+def surveyed(build, folder, points):
+    """Adds surveyed/scan.e57, .las, .laz to a run: `points`, x y z on each line, as surveyors' software writes them."""
+    home = os.path.join(folder, "surveyed")
+    os.makedirs(home)
+    with open(os.path.join(home, "points.txt"), "wb") as text:
+        text.write(points)
+    program = os.path.join(os.path.dirname(os.path.abspath(__file__)), "surveyed.py")
+    run([python_of(build), "-Es", program, os.path.join(home, "points.txt"), home])

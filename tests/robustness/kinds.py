@@ -6,19 +6,23 @@ import struct
 from dataclasses import dataclass, field
 
 import programs as p
+import scan_formats
 
 
 @dataclass
 class Kind:
     """`path`: where the damaged file stands in the work folder. `source`: makes the undamaged bytes from the base run.
     `belief`: an artefact, so that no other result than the undamaged file's may come out of it. `head`: only so many of the first
-    bytes are damaged. `variants`: the kind is several files, taken in turn."""
+    bytes are damaged. `finish`: makes the file of (base run, damaged bytes). `variants`: the kind is several files, taken in turn.
+    `surveyed`: the file is written in the Python environment that reads E57 and LAS (base_run.surveyed)."""
     path: str
     flavour: str
     calls: list
     belief: bool = False
     source: object = None
     head: object = None
+    finish: object = None
+    surveyed: bool = False
     variants: list = field(default_factory=list)
 
     def of(self, index):
@@ -116,6 +120,38 @@ def log(name):
     return Kind(path, "json", [Call("report"), Call("compare")], source=file_of(path))
 
 
+def of_points(write):
+    return lambda base: write(_scan_points(base))
+
+
+def las_header(content):
+    return struct.unpack_from("<I", content, 96)[0]  # up to the points
+
+
+def pcd_header(content):
+    return content.index(b"\nDATA ") + 30
+
+
+def surveyed_kinds():
+    """E57, LAS and LAZ: as they are, and behind right checksums, where most of the reader lies."""
+    whole = file_of("surveyed/scan.e57")
+    kinds = {
+        "e57": Kind("scans/s.e57", "binary", [ingest("scans/s.e57")], source=whole),
+        "e57_sound_pages": Kind("scans/p.e57", "binary", [ingest("scans/p.e57")], source=lambda base: scan_formats.e57_content(whole(base)),
+                                finish=lambda _, content: scan_formats.e57_file(content)),
+        "e57_xml": Kind("scans/x.e57", "text", [ingest("scans/x.e57")], source=lambda base: scan_formats.e57_xml(whole(base)),
+                        finish=lambda base, xml: scan_formats.e57_with_xml(whole(base), xml)),
+        "las": Kind("scans/s.las", "binary", [ingest("scans/s.las")], source=file_of("surveyed/scan.las")),
+        "las_header": Kind("scans/h.las", "binary", [ingest("scans/h.las")], source=file_of("surveyed/scan.las"), head=las_header),
+        "laz": Kind("scans/s.laz", "binary", [ingest("scans/s.laz")], source=file_of("surveyed/scan.laz")),
+        "laz_header": Kind("scans/h.laz", "binary", [ingest("scans/h.laz")], source=file_of("surveyed/scan.laz"), head=las_header),
+        "laz_layers": Kind("scans/l.laz", "binary", [ingest("scans/l.laz")], source=file_of("surveyed/scan14.laz")),
+    }
+    for kind in kinds.values():
+        kind.surveyed = True
+    return kinds
+
+
 def all_kinds():
     kinds = {
         "ply_ascii": Kind("scans/a.ply", "text", [ingest("scans/a.ply")], source=ply_ascii),
@@ -123,6 +159,13 @@ def all_kinds():
         "ply_header": Kind("scans/h.ply", "text", [ingest("scans/h.ply")], source=ply_binary, head=after_header),
         "text": Kind("scans/t.xyz", "text", [ingest("scans/t.xyz")], source=text),
         "csv": Kind("scans/c.csv", "text", [ingest("scans/c.csv")], source=csv),
+        "ptx": Kind("scans/s.ptx", "text", [ingest("scans/s.ptx")], source=of_points(scan_formats.ptx)),
+        "pts": Kind("scans/s.pts", "text", [ingest("scans/s.pts")], source=of_points(scan_formats.pts)),
+        "pcd_ascii": Kind("scans/a.pcd", "text", [ingest("scans/a.pcd")], source=of_points(scan_formats.pcd_ascii)),
+        "pcd_binary": Kind("scans/b.pcd", "binary", [ingest("scans/b.pcd")], source=of_points(scan_formats.pcd_binary)),
+        "pcd_header": Kind("scans/h.pcd", "text", [ingest("scans/h.pcd")], source=of_points(scan_formats.pcd_compressed), head=pcd_header),
+        "pcd_compressed": Kind("scans/c.pcd", "binary", [ingest("scans/c.pcd")], source=of_points(scan_formats.pcd_compressed)),
+        **surveyed_kinds(),
         "stations": Kind(p.STATIONS, "text", [Call("ingest", ["--work", ".", "--scan", p.SCAN, "--stations", p.STATIONS])], source=stations),
         "edit": Kind(p.EDIT, "json", [Call("accept_lines"), Call("diff_lines")], source=file_of("edit.geojson")),
         "pipeline_yaml": Kind("my.yaml", "yaml", [asked(binary, "--config", "my.yaml") for binary in [*BINARIES, "evaluate", "synthesize"]],

@@ -131,7 +131,11 @@ def damaged(name, index):
     draw = random.Random(f"{STATE['seed']} {name} {index}")
     head = kind.head(content) if kind.head else len(content)
     changed, how = mutations.damage(content[:head], kind.flavour, draw, extra)
-    return content, changed + content[head:], how
+    changed += content[head:]
+    if kind.finish:
+        base = STATE["place"].base
+        return kind.finish(base, content), kind.finish(base, changed), how
+    return content, changed, how
 
 
 def one_file(job):
@@ -204,12 +208,17 @@ def main():
     options = arguments()
     source, build = os.path.abspath(options.source), os.path.abspath(options.build)
     keep = os.path.abspath(options.keep) if options.keep else ""
+    if not base_run.can_be_surveyed(build):
+        print("skipped: E57, LAS and LAZ: no Python environment that reads them (make deps)")
+        options.only = [name for name in options.only if not kinds_table.all_kinds()[name].surveyed]
     begun = time.monotonic()
     scratch = tempfile.mkdtemp(prefix="roomcut mutations ", dir="/dev/shm" if os.access("/dev/shm", os.W_OK) else None)
     counts = {name: Counter() for name in options.only}
     kept = []
     try:
         base = base_run.make(source, build, os.path.join(scratch, "base"))
+        if any(kinds_table.all_kinds()[name].surveyed for name in options.only):
+            base_run.surveyed(build, base, kinds_table.text(base))
         jobs = [(name, index) for name in options.only for index in range(options.first, options.first + options.n)]
         with multiprocessing.Pool(options.jobs, start, (base, source, os.path.join(build, "bin"), scratch, options.seed, keep)) as pool:
             for name, index, runs, refused, findings in pool.imap(one_file, jobs, chunksize=8):

@@ -13,6 +13,7 @@ import point_stream
 
 BLOCK = 500_000  # points: ten of the usual chunks, so that all cores have some
 MOST_IN_CHUNK = 1 << 24  # points of one LAZ chunk; writers use 50,000
+SHORTEST_RECORD = 54  # bytes
 VARIABLE = 0xFFFFFFFF
 
 
@@ -30,6 +31,17 @@ def coordinate_system(header):
     values = struct.unpack(f"<{len(keys) // 2}H", keys[:len(keys) // 2 * 2])
     codes = [values[i + 3] for i in range(4, len(values) - 3, 4) if values[i] in (2048, 3072) and values[i + 1] == 0]
     return "EPSG:" + "+".join(map(str, codes[-1:])) if codes else None
+
+
+def check_records(path):
+    """The records before the points against the room that they have: laspy reads on for as many as a header claims."""
+    with open(path, "rb") as file:
+        start = file.read(104)
+    if len(start) < 104:
+        raise point_stream.ScanError("C05", "the file ends within its header")
+    size, points, records = struct.unpack_from("<HII", start, 94)
+    if points > os.path.getsize(path) or size + SHORTEST_RECORD * records > points:
+        raise point_stream.ScanError("C04", f"its header is damaged: {records} records before the points, which begin at byte {points}")
 
 
 def check_plain(path, header):
@@ -70,7 +82,28 @@ def blocks(path):
         yield from reader.chunk_iterator(BLOCK)
 
 
+class Box:
+    """Of all points, against the one in the header: a damaged scale, offset or block of points lies beside it."""
+
+    def __init__(self):
+        self.low, self.high = numpy.full(3, numpy.iinfo("i8").max), numpy.full(3, numpy.iinfo("i8").min)
+
+    def add(self, xyz):
+        for axis in range(3):
+            self.low[axis] = min(self.low[axis], xyz[:, axis].min())
+            self.high[axis] = max(self.high[axis], xyz[:, axis].max())
+
+    def warn(self, header, stream):
+        stated = numpy.sort((header.mins, header.maxs), axis=0)
+        ends = numpy.sort([end * header.scales + header.offsets for end in (self.low, self.high)], axis=0)
+        size = max(0.0, *(ends[1] - ends[0]))
+        beyond = max(*(stated[0] - ends[0]), *(ends[1] - stated[1]))
+        if stated.any() and not beyond <= 0.01 * size + 2 * numpy.abs(header.scales).max():
+            stream.warn(f"points lie {beyond:.6g} outside of the box that its header states: its scale, offset or points may be damaged")
+
+
 def decode(path, stream):
+    check_records(path)
     with laspy.open(path, read_evlrs=False) as reader:
         header = reader.header
     if header.are_points_compressed:
@@ -87,6 +120,7 @@ def decode(path, stream):
     stream.begin(header.point_count, point_stream.SCALED, header.scales, header.offsets)
     read = 0
     sources = numpy.zeros(1 << 16, bool)
+    box = Box()
     for block in blocks(path):
         read += len(block)
         ids = block.array["point_source_id"]
@@ -98,7 +132,10 @@ def decode(path, stream):
         if withheld.any():
             stream.invalid += int(withheld.sum())
             xyz = xyz[~withheld]
+        if len(xyz) > 0:
+            box.add(xyz)
         stream.add_records(xyz)
+    box.warn(header, stream)
     if read != header.point_count:
         raise point_stream.ScanError("C05", f"the header promises {header.point_count} points, the file holds {read}")
     set_ups = numpy.flatnonzero(sources)

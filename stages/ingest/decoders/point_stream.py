@@ -4,7 +4,7 @@
 Each record is a byte that names its kind, a little-endian uint64 with the bytes that follow, and these. Before the points: S a scanner
 position (3 float64), N a note, C the coordinate system as text, B the head (uint64: how many points the file promises, uint64: their form,
 3 float64: scales, 3 float64: offsets). Then P points: form 0: x, y, z as float64; 1: as int32, times scale plus offset; 2: x, y, z as
-float64 and the normal as float32. After them N, D dropped points (uint64: beams without return, points marked as invalid), E the end
+float64 and the normal as float32. After them N, W a warning, D dropped points (uint64: beams without return, points marked as invalid), E the end
 (uint64: points in all). X is an error ("C04\\nwhat\\nhint"). A stream without E is no scan."""
 import os
 import re
@@ -42,6 +42,9 @@ class PointStream:
 
     def note(self, text):
         self.record(b"N", text.encode()[:LONGEST_TEXT])
+
+    def warn(self, text):
+        self.record(b"W", text.encode()[:LONGEST_TEXT])
 
     def coordinate_system(self, text):
         """Well-known text or a name; what no coordinate system is so long as is left out."""
