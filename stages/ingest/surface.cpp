@@ -23,9 +23,6 @@ constexpr std::uint32_t kWellFilled = 20;     // points for a noise estimate
 constexpr float kFlat_m = 0.02F;              // scatter of a plane that shows how it leans
 constexpr double kClearPlane = 0.15;          // lambda0 / lambda1 for a noise estimate
 constexpr std::uint32_t kFewestInLayer = 12;  // points for a plane in a layer of voxels
-/// How the two faces of a slab may lie in a neighbourhood's three layers, the voxel's own and the other one.
-constexpr std::array<std::pair<unsigned, unsigned>, 4> kSlabLayers{
-    {{0b010, 0b100}, {0b010, 0b001}, {0b011, 0b100}, {0b110, 0b001}}};
 constexpr double kLineShare = 0.01;  // lambda1 below this share of the neighbourhood's edge squared: a line
 constexpr double kLargestTilt =
     0.0027;  // (3 degrees)^2: a less certain direction is asked from a coarser voxel
@@ -122,18 +119,50 @@ void add_lean(const VoxelSurface& surface, LeanSums& sums) {
   }
 }
 
-/// The sum over the voxels of the neighbourhood that `layers` has, a bit for each height: below, own, above.
-NeighbourSum accumulate(const VoxelLevel& level, std::uint16_t z, Neighbourhood& around,
-                        unsigned layers = 0b111) {
+NeighbourSum accumulate(const VoxelLevel& level, std::uint16_t z, Neighbourhood& around) {
   MomentSum moments;
   VoxelMask mask = 0;
   const Moments* const first = level.moments.data();
   around.visit(z, [&](std::uint32_t voxel, int bit) {
-    if ((layers >> (bit % 3) & 1U) == 0) return;
     moments.add(first[voxel]);
     mask |= VoxelMask{1} << bit;
   });
   return {moments.total(), mask};
+}
+
+/// The same by height: the layer of voxels below, the own one, the one above.
+std::array<NeighbourSum, 3> accumulate_layers(const VoxelLevel& level, std::uint16_t z,
+                                              Neighbourhood& around) {
+  std::array<MomentSum, 3> moments;
+  std::array<NeighbourSum, 3> layers;
+  const Moments* const first = level.moments.data();
+  around.visit(z, [&](std::uint32_t voxel, int bit) {
+    const auto layer = static_cast<std::size_t>(bit % 3);
+    moments[layer].add(first[voxel]);
+    layers[layer].mask |= VoxelMask{1} << bit;
+  });
+  for (std::size_t k = 0; k < layers.size(); ++k) layers[k].moments = moments[k].total();
+  return layers;
+}
+
+/// Whether a layer beside the own one is filled as the face of a slab fills it; a wall fills three cells.
+bool may_hold_slab(VoxelMask mask) {
+  constexpr VoxelMask kBelow = 0b001'001'001'001'001'001'001'001'001;
+  constexpr int kFewestCells = 4;
+  return std::max(std::popcount(mask & kBelow), std::popcount(mask >> 2 & kBelow)) >= kFewestCells;
+}
+
+NeighbourSum together(const NeighbourSum& a, const NeighbourSum& b) {
+  MomentSum sum;
+  sum.add(a.moments);
+  sum.add(b.moments);
+  return {sum.total(), a.mask | b.mask};
+}
+
+/// Whether points seen from above leave no cell of the nine empty but by chance.
+bool is_whole_from_above(const NeighbourSum& sum) {
+  constexpr int kUp = 2;
+  return covered_cells(sum.moments.points(), std::popcount(projected(sum.mask, kUp))).whole;
 }
 
 /// Standard deviation of the points off their best plane [units].
@@ -198,34 +227,36 @@ VoxelSurface SurfaceFinder::fit_coarse(const TileGrid& grid, const UnitScale& sc
   const VoxelLevel& voxels = grid.level(level);
   const std::uint16_t z = voxels.z[voxel];
   const std::array<std::uint32_t, 3> centre = grid.centre(level, ix, iy, z);
-  const auto sum_of = [&](unsigned layers) {
-    Neighbourhood around(voxels, ix, iy);
-    return accumulate(voxels, z, around, layers);
-  };
   const auto fit = [&](const NeighbourSum& sum) {
     return surface_of(sum, centre, scale.voxel_edge_m() * (1 << level), scale.unit_m(), params_);
   };
-  const auto is_level = [&](const NeighbourSum& sum, const VoxelSurface& surface) {
-    return surface.surface == SurfaceClass::kHorizontal && surface.whole &&
-           scatter_of(sum, centre) * scale.unit_m() < kFlat_m;
-  };
-  const NeighbourSum sum = sum_of(0b111);
+  Neighbourhood around(voxels, ix, iy);
+  const NeighbourSum sum = accumulate(voxels, z, around);
   const VoxelSurface all = fit(sum);
-  if (!all.resolved || all.surface != SurfaceClass::kNone || sum.moments.points() < 2 * kFewestInLayer) {
+  if (!all.resolved || all.surface != SurfaceClass::kNone || sum.moments.points() < 2 * kFewestInLayer ||
+      !may_hold_slab(sum.mask)) {
     return all;
   }
+  Neighbourhood again(voxels, ix, iy);
+  const auto [below, own, above] = accumulate_layers(voxels, z, again);
+  const auto is_level = [&](const NeighbourSum& face, const VoxelSurface& surface) {
+    return surface.surface == SurfaceClass::kHorizontal &&
+           scatter_of(face, centre) * scale.unit_m() < kFlat_m;
+  };
   VoxelSurface best = all;
   std::uint32_t most = kFewestInLayer - 1;
-  for (const auto& [own, other] : kSlabLayers) {
-    const NeighbourSum near = sum_of(own);
-    if (near.moments.points() <= most) continue;
-    const VoxelSurface surface = fit(near);
-    const NeighbourSum beyond = sum_of(other);
-    if (is_level(near, surface) && is_level(beyond, fit(beyond))) {
+  const auto try_slab = [&](const NeighbourSum& face, const NeighbourSum& other) {
+    if (face.moments.points() <= most || !is_whole_from_above(face) || !is_whole_from_above(other)) return;
+    const VoxelSurface surface = fit(face);
+    if (is_level(face, surface) && is_level(other, fit(other))) {
       best = surface;
-      most = near.moments.points();
+      most = face.moments.points();
     }
-  }
+  };
+  try_slab(own, above);
+  try_slab(own, below);
+  try_slab(together(below, own), above);
+  try_slab(together(own, above), below);
   return best;
 }
 

@@ -71,10 +71,15 @@ def read_independently(path):
     return laspy.read(path).xyz
 
 
-def positions_found(work):
-    dump = subprocess.run(["h5dump", "-m", "%.6f", "-y", "-d", "/stations/xyz", os.path.join(work, "10_ingest", "cloud.h5")],
+def numbers(work, *what):
+    dump = subprocess.run(["h5dump", "-m", "%.6f", "-y", *what, os.path.join(work, "10_ingest", "cloud.h5")],
                           capture_output=True, text=True, check=True).stdout
     return numpy.array(re.findall(r"-?\d+\.\d{6}", dump), float).reshape(-1, 3)
+
+
+def positions_found(work):
+    """In the scan's own coordinates."""
+    return numbers(work, "-d", "/stations/xyz") + numbers(work, "-a", "/frame/origin")
 
 
 class WrittenFormats(unittest.TestCase):

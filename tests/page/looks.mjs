@@ -92,6 +92,7 @@ export async function looksAtPlan(page, name) {
   });
 
   await step("the keyboard goes from slice to slice, moves and zooms", async () => {
+    await page.evaluate(() => window.roomcut.plan.choose(window.roomcut.plan.slices.at(-1)));
     await page.focus(kPlan);
     const at = () => page.evaluate(() => window.roomcut.plan.state.slice.index);
     const begin = await at();

@@ -213,8 +213,9 @@ printf '2.5 2.0 1.6\n' > "$place/scanner positions.txt"
 mark
 check "STATIONS=file" mk ingest STATIONS="$place/scanner positions.txt"
 check "… reads the scan again" ran_exactly "ingest"
-h5dump -d /stations/xyz "$work/10_ingest/cloud.h5" > "$output" 2>&1
-check "… and writes the positions" grep -q '2.5, 2, 1.6' "$output"
+numbers() { h5dump -y -m %.6f "$@" "$work/10_ingest/cloud.h5" | grep -oE -- '-?[0-9]+\.[0-9]{6}'; }
+positions=$(paste <(numbers -d /stations/xyz) <(numbers -a /frame/origin) | awk '{ printf "%.3f ", $1 + $2 }')
+check "… and writes the positions, from the local origin" test "$positions" = "2.500 2.000 1.600 "
 mark
 touch "$place/scanner positions.txt"
 mk ingest STATIONS="$place/scanner positions.txt"
