@@ -10,6 +10,7 @@ import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 
 export const [source, build, packages] = process.argv.slice(2, 5).map((path) => resolve(path));
+const { ScanCoordinates } = await import(pathToFileURL(join(source, "stages/report/page/src/data/coordinates.js")).href);
 const kSkipped = 77;
 const kBrowsers = ["/usr/bin/chromium", "/usr/bin/chromium-browser"];
 const kSlow = 300000; // [ms] a machine that builds beside the test is slow
@@ -153,14 +154,17 @@ export function windowOf(page, point) {
   }, point);
 }
 
+/** Between the page's local coordinates and the scan's own, which all files hold. */
+export const coordinatesOf = (work) => new ScanCoordinates(json(join(work, "summary.json")).frame);
+
 /** The vertices of a model.ply (binary, double coordinates), in local metres. */
 export function modelVertices(work) {
   const bytes = readFileSync(join(work, "model.ply"));
   const end = bytes.indexOf("end_header\n") + "end_header\n".length;
   const head = bytes.subarray(0, end).toString();
   const count = Number(/element vertex (\d+)/.exec(head)[1]);
-  const { origin } = json(join(work, "summary.json")).frame; // the model stands where the scan does, the page's lines are local
-  return Array.from({ length: count }, (_, i) => origin.map((at, axis) => bytes.readDoubleLE(end + 24 * i + 8 * axis) - at));
+  const scan = coordinatesOf(work); // the model stands where the scan does, the page's lines are local
+  return Array.from({ length: count }, (_, i) => scan.toLocal([0, 8, 16].map((byte) => bytes.readDoubleLE(end + 24 * i + byte))));
 }
 
 /** How many vertices lie within `limit` metres of a line of the plan, between its ends. */

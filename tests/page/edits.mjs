@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { mkdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
-import { json, make, modelVertices, openReport, screenshot, settled, step, verticesOn, windowOf } from "./browser.mjs";
+import { coordinatesOf, json, make, modelVertices, openReport, screenshot, settled, step, verticesOn, windowOf } from "./browser.mjs";
 
 const kPlan = "#plan-canvas > canvas";
 
@@ -77,9 +77,6 @@ async function saveAndRun(page, scan, work) {
 
 const accepted = (work) => new Map(json(join(work, "40_accept_lines", "wall_lines.geojson")).features.map((feature) => [feature.properties.wall_id, feature]));
 
-/** The origin of the page's coordinates in those of the scan, which all files hold. */
-const originOf = (work) => json(join(work, "summary.json")).frame.origin;
-
 /**
  * Drags an outer wall outwards and locks it; undoes, redoes; saves, runs; the wall has moved in model.ply by as much.
  * @param metres about how far
@@ -150,6 +147,7 @@ export async function editsLines(page, scan, work, name) {
   let drawn = null;
 
   await step("a new line is drawn, parallel or perpendicular to a wall", async () => {
+    await page.click("#tab-plan");
     await page.click("#edit-toggle");
     await page.click("#plan-tools >> text=Fit");
     await page.click("#edit-add");
@@ -214,8 +212,7 @@ export async function editsLines(page, scan, work, name) {
     const added = [...after.values()].filter(({ properties }) => properties.source === "added");
     assert.equal(added.length, 1);
     const ends = added[0].geometry.coordinates.flat();
-    const [x, y] = originOf(work);
-    const wanted = [drawn.a[0] + x, drawn.a[1] + y, drawn.b[0] + x, drawn.b[1] + y];
+    const wanted = [drawn.a, drawn.b].flatMap((end) => coordinatesOf(work).planToScan(end));
     const same = (order) => order.every((k, i) => Math.abs(ends[i] - wanted[k]) < 2e-6);
     assert.ok(same([0, 1, 2, 3]) || same([2, 3, 0, 1]), `${ends} instead of ${wanted}`);
     for (const [id, feature] of before) {

@@ -3,7 +3,7 @@
 import { existsSync } from "node:fs";
 import { join } from "node:path";
 import { make, need, openBrowser, openReport, skip, source, temporaryFolder } from "./browser.mjs";
-import { editsLines, movesWall } from "./edits.mjs";
+import { editsLines } from "./edits.mjs";
 import { agreesWithTheRun, looksAtModel, looksAtPlan, looksAtTables, nothingWrong, printsDecently, worksWithTheKeyboard } from "./looks.mjs";
 
 need();
@@ -21,7 +21,7 @@ await looksAtModel(page, "office");
 await looksAtPlan(page, "office");
 await looksAtTables(page, "office");
 await agreesWithTheRun(page, work);
-await movesWall(page, scan, work, "office", 0.25);
+// No wall of it bounds the building alone in both storeys, to be moved by itself: demo_test and served_test move walls.
 await editsLines(page, scan, work, "office");
 nothingWrong(page);
 await browser.close();
