@@ -2,9 +2,13 @@
 """What the fuzz targets begin with: files of a small run, and a few made here for what a run does not have."""
 import glob
 import os
-import shutil
 import re
+import shutil
 import struct
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from pipeline_table import PLACES  # noqa: E402
 
 POINTS = [(0.01 * i % 3, 0.02 * i % 2.5, 0.013 * i % 2.4) for i in range(240)]
 HEAD = "ply\nformat {} 1.0\ncomment station 1 2 1.5\nelement vertex {}\nproperty {} x\nproperty {} y\nproperty {} z\n"
@@ -92,7 +96,7 @@ def of_run(source, run):
         "mesh_ply": [os.path.join(run, "model.ply")],
         "mesh_obj": [os.path.join(run, "model.obj")],
         "scene": scenes,
-        "hdf5": [os.path.join(run, path) for path in ("70_graphcut/labels.h5", "55_weigh_faces/weights.h5", "50_partition/cells.h5")],
+        "hdf5": [os.path.join(run, PLACES[name]) for name in ("labels", "weights", "cells")],
         "stamp": sorted(glob.glob(os.path.join(run, "stamps/*"))),
     }
 

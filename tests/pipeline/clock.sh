@@ -131,10 +131,8 @@ for file in $(cd "$work" && ls [0-9]*/* model.ply model.obj summary.json report.
   damage "$work/$file"
   mk run
   digests "$work" > "$place/now"
-  case $file in 1*) maker=ingest ;; 2*) maker=slice ;; 3*) maker=detect_lines ;; 4*) maker=accept_lines ;; 50*) maker=partition ;; 55*) maker=weigh_faces ;;
-    60*) maker=raycast ;; 70*) maker=graphcut ;; 80*) maker=refine_lines ;; 90*cells*) maker=final_partition ;; 90*weights*) maker=final_weigh_faces ;;
-    90*terms*) maker=final_raycast ;; 90*) maker=final_graphcut ;; 95*) maker=find_openings ;; report* | pict*) maker=report ;; *) maker=extract ;; esac
-  if [ "$(ran)" = $maker ] && cmp -s "$place/first" "$place/now"; then ok "$file damaged: $maker alone makes it again"; else
+  maker=$(maker_of "$file")
+  if [ "$(ran)" = "$maker" ] && cmp -s "$place/first" "$place/now"; then ok "$file damaged: $maker alone makes it again"; else
     not_ok "$file damaged" "ran: $(ran)
 $(diff "$place/first" "$place/now")
 $(tail -3 "$output")"

@@ -5,6 +5,12 @@ unset MAKEFLAGS MFLAGS MAKELEVEL SCAN WORK CONFIG JOBS UP UNIT STATIONS TRUTH QU
 
 ALL=$(sed -n 's/^\([a-z][a-z_]*\) .*/\1/p' "$SOURCE/stages/pipeline.table" | tr '\n' ' ')
 ALL=${ALL% }
+
+# maker_of FILE: the run that writes it; pictures are the report's.
+maker_of() {
+  case $1 in pictures/*) echo report && return ;; esac
+  "$BUILD/bin/artefact" rules | awk -F, -v file="$1" '{ n = split($4, files, " "); for (i = 1; i <= n; ++i) if (files[i] == file) print $2 }'
+}
 passed=0
 failed=0
 place=$(mktemp -d "${TMPDIR:-/tmp}/roomcut büro XXXXXX") || exit 1

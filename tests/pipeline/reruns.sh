@@ -151,10 +151,7 @@ for file in 20_slice/slices.h5 50_partition/cells.h5 30_detect_lines/hough.h5 90
   mark
   rm "$work/$file"
   mk run
-  case $file in
-    20*) stage=slice ;; 30*) stage=detect_lines ;; 50*) stage=partition ;; 90*) stage=final_weigh_faces ;; *) stage=extract ;;
-  esac
-  check "$file deleted: remade, nothing after it" ran_exactly "$stage"
+  check "$file deleted: remade, nothing after it" ran_exactly "$(maker_of "$file")"
   check "… and it is there" test -s "$work/$file"
 done
 mark

@@ -33,13 +33,11 @@ step() {
   "$bin/$stage" -q --config "$config" "$@" > "$output" 2>&1 || not_ok "$stage by hand" "$(cat "$output")"
 }
 step ingest --scan "$scan"
-for stage in slice detect_lines accept_lines partition weigh_faces raycast graphcut refine_lines; do step $stage; done
-step partition --lines 80_refine_lines/wall_lines.geojson --cells-out 90_final/cells.h5
-step weigh_faces --cells 90_final/cells.h5 --weights-out 90_final/weights.h5
-step raycast --cells 90_final/cells.h5 --weights 90_final/weights.h5 --terms-out 90_final/data_terms.h5
-step graphcut --cells 90_final/cells.h5 --weights 90_final/weights.h5 --terms 90_final/data_terms.h5 --labels-out 90_final/labels.h5
-step find_openings
-step extract
+"$bin/artefact" rules | tr -d ')' > "$place/rules"
+while IFS=, read -r _ name program _ _ options; do
+  # shellcheck disable=SC2086  # one word each
+  case $name in ingest | report) ;; *) step "$program" $options ;; esac
+done < "$place/rules"
 digests "$hand" > "$place/now"
 grep -v report.html "$place/first" > "$place/without_report"
 if cmp -s "$place/without_report" "$place/now"; then
