@@ -14,7 +14,7 @@ inline constexpr double kLargestArea_m2 = 1e10;
 inline constexpr double kDensest = 1e12;         ///< points per square metre
 inline constexpr double kSmallestEdge_m = 1e-3;  ///< of voxels, tiles, cells and bins that indices count
 inline constexpr double kLargestEdge_m = 1e3;
-inline constexpr double kLargestNoise_m = 10;  ///< it comes from voxels of at most 1.6 m
+inline constexpr double kLargestNoise_m = 10;      ///< it comes from voxels of at most 1.6 m
 inline constexpr double kFarthestOrigin_m = 1e12;  ///< of the local frame in the scan's coordinates
 
 /// Whether the number can be a coordinate or a length in the local frame; NaN and infinity cannot.

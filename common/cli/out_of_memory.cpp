@@ -36,7 +36,8 @@ namespace {
   } catch (const std::bad_alloc&) {
     end_out_of_memory();
   } catch (const std::exception& error) {
-    if (std::string_view(error.what()).starts_with("pthread_create")) {  // oneTBB, whose threads need some too
+    if (std::string_view(error.what())
+            .starts_with("pthread_create")) {  // oneTBB, whose threads need some too
       end_out_of_memory();
     }
     const std::string text = std::string("unexpected: ") + error.what() + "\n";
