@@ -100,7 +100,7 @@ class StageRun {
 /// --dump-params,
 /// --version, --help and one per file), TBB thread limit, log file `<work>/logs/<stage>.json`, errors, exit
 /// code. `table` is bound to the params struct that `body` uses.
-int run_stage(int argc, char** argv, const StageInfo& info, ParameterTable table,
+int run_stage(int argc, char** argv, const StageInfo& declared, ParameterTable table,
               const std::function<void(StageRun&)>& body);
 
 }  // namespace roomcut
