@@ -153,7 +153,7 @@ struct MadeCloud {
 
 MadeCloud make_cloud(StageRun& run, const ScanReader& reader, const ScanSettings& settings,
                      const IngestParams& params, const std::vector<Vec3>& stations,
-                     std::shared_future<std::string> digest) {
+                     const std::shared_future<std::string>& digest) {
   MadeCloud cloud;
   Progress reading = run.progress("reading blocks", (settings.middle ? 1 : 2) * reader.blocks());
   cloud.scan = tile_scan(reader, settings, params, [&](std::uint64_t blocks) { reading.advance(blocks); });
