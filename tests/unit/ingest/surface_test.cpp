@@ -134,6 +134,7 @@ TEST(SurfaceClasses, tell_a_ceiling_from_the_floor_above_it_in_sparse_scans) {
   for (const double thickness : {0.25, 0.3, 0.4}) {
     for (const double height : {2.50, 2.57, 2.6, 2.73}) {
       std::vector<Vec3> points;
+      points.reserve(2 * 36 * kDensity);
       for (int i = 0; i < 2 * 36 * kDensity; ++i) {
         points.emplace_back(6 * unit(random), 6 * unit(random), height + (i % 2) * thickness + error(random));
       }
