@@ -15,7 +15,7 @@ namespace {
 constexpr double kFilledShare = 0.01;  // of a typical cell
 constexpr double kDenseShare = 0.1;    // likewise: such cells are near a scanner
 constexpr int kFarthest = 10;  // cells to the nearest dense one; farther ones are taken as near as that
-constexpr std::uint64_t kFewestThin = 30;  // points of a thin cell: fewer show no wall
+constexpr std::uint64_t kFewestThin = 30;  // points of eight thin cells: fewer show no wall
 constexpr double kGroupShare = 0.01;       // of the largest group
 constexpr double kBuildingShare = 0.5;  // of a typical cell, in eight cells of a group: as dense as the rest
 constexpr int kReach = 2;               // cells: at most one empty cell between two of a group
@@ -87,6 +87,23 @@ int distance_to_dense(Cells& cells, const CellKey& key, double dense) {
   return kFarthest;
 }
 
+/// The most points in two by two by two cells, of which `key` is one, counting those that `counts` accepts:
+/// what is small falls into so many, wherever the borders of cells lie.
+template <class Counts>
+std::uint64_t densest_window(const Cells& cells, const CellKey& key, Counts&& counts) {
+  std::uint64_t most = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const CellKey low{key.ix - corner % 2, key.iy - corner / 2 % 2, key.layer - corner / 4};
+    std::uint64_t points = 0;
+    for (int i = 0; i < 8; ++i) {
+      const auto other = cells.find({low.ix + i % 2, low.iy + i / 2 % 2, low.layer + i / 4});
+      points += other != cells.end() && counts(other->second) ? other->second.points : 0;
+    }
+    most = std::max(most, points);
+  }
+  return most;
+}
+
 /// Marks the well-filled cells. Along a floor or a wall the beams of one scanner get rarer with the third
 /// power of the distance, so that the far end of a corridor is thin without being a ghost.
 void mark_filled(Cells& cells, double typical) {
@@ -96,29 +113,27 @@ void mark_filled(Cells& cells, double typical) {
     if (!cell.filled) {
       const double distance = distance_to_dense(cells, key, kDenseShare * typical);
       cell.thin = points >= kFilledShare * typical / (2 * distance * distance * distance);
-      cell.filled = cell.thin && cell.points >= kFewestThin;
     }
+  }
+  for (auto& [key, cell] : cells) {
+    cell.filled = cell.filled || (cell.thin && densest_window(cells, key, [](const CellState& other) {
+                                                 return other.thin;
+                                               }) >= kFewestThin);
   }
 }
 
-/// The most points in two by two by two cells of each group: what is small falls into so many, wherever the
-/// borders of cells lie.
-std::vector<std::uint64_t> densest_windows(Cells& cells, std::size_t groups) {
+/// The most points in two by two by two cells of each group.
+std::vector<std::uint64_t> densest_windows(const Cells& cells, std::size_t groups) {
   std::vector<std::uint64_t> densest(groups, 0);
   for (const auto& [key, cell] : cells) {
     if (cell.group < 0) {
       continue;
     }
-    for (int corner = 0; corner < 8; ++corner) {
-      const CellKey low{key.ix - corner % 2, key.iy - corner / 2 % 2, key.layer - corner / 4};
-      std::uint64_t points = 0;
-      for (int i = 0; i < 8; ++i) {
-        const auto other = cells.find({low.ix + i % 2, low.iy + i / 2 % 2, low.layer + i / 4});
-        points += other != cells.end() && other->second.group == cell.group ? other->second.points : 0;
-      }
-      std::uint64_t& most = densest[static_cast<std::size_t>(cell.group)];
-      most = std::max(most, points);
-    }
+    const int group = cell.group;
+    const std::uint64_t points =
+        densest_window(cells, key, [group](const CellState& other) { return other.group == group; });
+    std::uint64_t& most = densest[static_cast<std::size_t>(group)];
+    most = std::max(most, points);
   }
   return densest;
 }
