@@ -33,12 +33,11 @@ struct KeptCells {
 
 /// Tells the building from ghosts: far, sparse cells, as mirrors, glass and the sky put them hundreds of
 /// metres away. A cell is well filled when it holds at least 1 % of the points of a typical cell (the one
-/// with the median point), or the share that the beams of one scanner have so far from the next dense cell (1/2 %
-/// over the third power of the distance in cells) and, with such cells beside it in a block of 2 x 2 x 2, 30
-/// points. Well-filled cells less than two cells
-/// apart hang together; such a group is kept when it has at least 1 % of the points of the largest, or in
-/// eight cells half as many as a typical cell: a gatehouse as dense as the hall is a building. Other cells
-/// are kept when they touch a kept one.
+/// with the median point), or the share that the beams of one scanner have so far from the next dense cell
+/// (1/2 % over the third power of the distance in cells) and, with such cells beside it in a block of 2 x 2 x
+/// 2, 30 points. Well-filled cells less than two cells apart hang together; such a group is kept when it has
+/// at least 1 % of the points of the largest, or in eight cells half as many as a typical cell: a gatehouse
+/// as dense as the hall is a building. Other cells are kept when they touch a kept one.
 KeptCells without_ghosts(const std::vector<CellCount>& cells);
 
 }  // namespace roomcut
