@@ -22,7 +22,9 @@ constexpr int kReach = 2;               // cells: at most one empty cell between
 
 struct CellKey {
   int ix, iy, layer;
-  auto operator<=>(const CellKey&) const = default;
+  bool operator<(const CellKey& other) const {
+    return std::tie(ix, iy, layer) < std::tie(other.ix, other.iy, other.layer);
+  }
 };
 
 struct CellState {

@@ -38,6 +38,6 @@ struct KeptCells {
 /// 2, 30 points. Well-filled cells less than two cells apart hang together; such a group is kept when it has
 /// at least 1 % of the points of the largest, or in eight cells half as many as a typical cell: a gatehouse
 /// as dense as the hall is a building. Other cells are kept when they touch a kept one.
-KeptCells without_ghosts(const std::vector<CellCount>& cells);
+KeptCells without_ghosts(const std::vector<CellCount>& counts);
 
 }  // namespace roomcut
