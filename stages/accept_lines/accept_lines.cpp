@@ -7,7 +7,7 @@
 
 #include "common/wall_lines/describe_changes.h"
 
-namespace roomcut {
+namespace roomcut::accept_lines {
 
 namespace {
 
@@ -84,4 +84,4 @@ std::string describe_moved_base(const Acceptance& acceptance, const std::string&
   return items.empty() ? text + "\n  every line still has its partner" : text;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::accept_lines

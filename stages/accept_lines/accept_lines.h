@@ -8,7 +8,7 @@
 #include "common/wall_lines/compare_lines.h"
 #include "common/wall_lines/wall_line.h"
 
-namespace roomcut {
+namespace roomcut::accept_lines {
 
 /// What goes on to the partition, and what the user did to it.
 struct Acceptance {
@@ -36,4 +36,4 @@ std::vector<WallLine> without_partner(const std::vector<WallLine>& lines,
 std::string describe_moved_base(const Acceptance& acceptance, const std::string& detection_sha256,
                                 std::size_t most = 20);
 
-}  // namespace roomcut
+}  // namespace roomcut::accept_lines

@@ -10,6 +10,7 @@
 namespace {
 
 using namespace roomcut;
+using namespace roomcut::accept_lines;
 
 StageInfo info() {
   StageInfo stage;
@@ -31,7 +32,7 @@ void body(StageRun& run) {
     }
     edit = std::move(file.content);
   }
-  const Acceptance accepted = accept_lines(detected.content, detected.payload_sha256, edit);
+  const Acceptance accepted = accept_lines::accept_lines(detected.content, detected.payload_sha256, edit);
   if (accepted.base_moved) {
     run.warn(run.input("edit").string() + ": " + describe_moved_base(accepted, detected.payload_sha256));
   }

@@ -3,11 +3,11 @@
 
 #include "common/params/params.h"
 
-namespace roomcut {
+namespace roomcut::accept_lines {
 
 /// accept_lines has no parameters: what enters is decided by the files alone.
 inline ParameterTable accept_lines_parameters() {
   return {};
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::accept_lines

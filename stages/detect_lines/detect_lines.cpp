@@ -13,7 +13,7 @@
 #include "stages/detect_lines/free_cells.h"
 #include "stages/detect_lines/merge_lines.h"
 
-namespace roomcut {
+namespace roomcut::detect_lines {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
@@ -225,4 +225,4 @@ DetectLinesResult detect_lines(const Slices& slices, const DetectLinesParams& pa
   return result;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::detect_lines

@@ -10,7 +10,7 @@
 #include "stages/detect_lines/params.h"
 #include "stages/detect_lines/wall_cells.h"
 
-namespace roomcut {
+namespace roomcut::detect_lines {
 
 /// A value that was derived from the data, by the parameter's formula.
 struct DetectLinesChoice {
@@ -42,4 +42,4 @@ struct DetectLinesResult {
 /// threads. Throws StageError(kNoWallLines) with what was seen.
 DetectLinesResult detect_lines(const Slices& slices, const DetectLinesParams& params);
 
-}  // namespace roomcut
+}  // namespace roomcut::detect_lines

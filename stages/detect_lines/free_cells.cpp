@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace roomcut {
+namespace roomcut::detect_lines {
 namespace {
 
 constexpr double kLeastEdge_m = 0.5;
@@ -91,4 +91,4 @@ void FreeCells::take(const CellIndices& taken) {
   }
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::detect_lines

@@ -7,7 +7,7 @@
 
 #include "stages/detect_lines/line_fit.h"
 
-namespace roomcut {
+namespace roomcut::detect_lines {
 
 /// The pieces of wall that no line has taken yet, in squares: those on a line are found along it, at a cost
 /// that grows with the building's diagonal and not with its area. Otherwise the search would take the square
@@ -37,4 +37,4 @@ class FreeCells {
   std::vector<std::uint8_t> taken_;  ///< per cell
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::detect_lines

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace roomcut {
+namespace roomcut::detect_lines {
 namespace {
 
 constexpr double kVoteUnit = 2e-4;  // m; half votes stay whole numbers of 0.1 mm
@@ -94,4 +94,4 @@ double HoughAccumulator::highest_m(std::size_t angle, std::size_t begin, std::si
          kVoteUnit;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::detect_lines

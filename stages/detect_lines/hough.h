@@ -6,7 +6,7 @@
 
 #include "common/geometry/line2.h"
 
-namespace roomcut {
+namespace roomcut::detect_lines {
 
 /// Votes for wall lines over angle and signed distance to a centre (paper §2), for all wall slices together.
 /// Whole numbers, so that votes can be taken back exactly and their order does not matter.
@@ -60,4 +60,4 @@ class HoughAccumulator {
   std::vector<Best> block_best_;  ///< row-major: angle, block of distances; a row is long in a large building
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::detect_lines

@@ -6,7 +6,7 @@
 
 #include "common/artefact/h5.h"
 
-namespace roomcut {
+namespace roomcut::detect_lines {
 namespace {
 
 constexpr double kVoteUnit = 0.001;  // m
@@ -52,4 +52,4 @@ bool write_hough(const std::filesystem::path& path, const DetectLinesResult& res
   return file.commit();
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::detect_lines

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-namespace roomcut {
+namespace roomcut::detect_lines {
 namespace {
 
 constexpr int kIterations = 12;
@@ -160,4 +160,4 @@ FitQuality quality(const WallCells& cells, const CellIndices& on_line, const Lin
   return result;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::detect_lines

@@ -7,7 +7,7 @@
 #include "common/geometry/line2.h"
 #include "stages/detect_lines/wall_cells.h"
 
-namespace roomcut {
+namespace roomcut::detect_lines {
 
 using CellIndices = std::vector<std::uint32_t>;  ///< into WallCells, ascending
 
@@ -51,4 +51,4 @@ std::vector<Support> supports(const WallCells& cells, const CellIndices& on_line
 
 FitQuality quality(const WallCells& cells, const CellIndices& on_line, const Line2& line);
 
-}  // namespace roomcut
+}  // namespace roomcut::detect_lines

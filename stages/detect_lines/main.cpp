@@ -8,6 +8,7 @@
 namespace {
 
 using namespace roomcut;
+using namespace roomcut::detect_lines;
 
 ParameterTable parameters(DetectLinesParams& p) {
   return {
@@ -56,7 +57,7 @@ int main(int argc, char** argv) {
                        {}};
   return run_stage(argc, argv, info, parameters(params), [&params](StageRun& run) {
     const Slices slices = read_slices(run.input("slices"));
-    const DetectLinesResult result = detect_lines(slices, params);
+    const DetectLinesResult result = detect_lines::detect_lines(slices, params);
     write_hough(run.output("hough"), result, run.provenance());
     write_wall_lines(run.output("lines-out"), result.lines, run.provenance());
     report(run, result);

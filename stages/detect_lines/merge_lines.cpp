@@ -6,7 +6,7 @@
 #include <set>
 #include <tuple>
 
-namespace roomcut {
+namespace roomcut::detect_lines {
 namespace {
 
 Vec2 centre(const LineCandidate& candidate) {
@@ -83,4 +83,4 @@ std::vector<LineCandidate> merge_near_duplicates(const WallCells& cells, std::ve
   return kept;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::detect_lines

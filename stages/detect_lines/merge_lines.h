@@ -5,7 +5,7 @@
 
 #include "stages/detect_lines/line_fit.h"
 
-namespace roomcut {
+namespace roomcut::detect_lines {
 
 /// A line with its support, before it gets an id.
 struct LineCandidate {
@@ -30,4 +30,4 @@ struct MergeRules {
 std::vector<LineCandidate> merge_near_duplicates(const WallCells& cells, std::vector<LineCandidate> lines,
                                                  const MergeRules& rules, const FitRules& fit);
 
-}  // namespace roomcut
+}  // namespace roomcut::detect_lines

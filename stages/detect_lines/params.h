@@ -4,7 +4,7 @@
 #include <numbers>
 #include <optional>
 
-namespace roomcut {
+namespace roomcut::detect_lines {
 
 /// Parameters of `detect_lines`; an empty optional is derived from noise and extent (detect_lines.h:
 /// choices).
@@ -23,4 +23,4 @@ struct DetectLinesParams {
   double max_gap_m = 3.0;      ///< supports farther apart are lines of their own
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::detect_lines

@@ -10,7 +10,7 @@
 
 #include "common/cloud/cloud.h"
 
-namespace roomcut {
+namespace roomcut::detect_lines {
 namespace {
 
 constexpr std::array<int, 3> kRadii = {2, 4, 8};  // in tau
@@ -133,4 +133,4 @@ WallCells classify_cells(const Slices& slices, double linearity) {
   return cells;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::detect_lines

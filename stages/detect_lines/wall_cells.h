@@ -6,7 +6,7 @@
 
 #include "common/slices/slices.h"
 
-namespace roomcut {
+namespace roomcut::detect_lines {
 
 /// Occupied cells of all wall slices in one list (slice by slice, as in Slices), with the direction of the
 /// wall there.
@@ -27,4 +27,4 @@ struct WallCells {
 /// does not depend on threads.
 WallCells classify_cells(const Slices& slices, double linearity);
 
-}  // namespace roomcut
+}  // namespace roomcut::detect_lines

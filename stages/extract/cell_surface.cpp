@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace roomcut {
+namespace roomcut::extract {
 
 namespace {
 
@@ -132,4 +132,4 @@ double empty_volume(const CellComplex& complex, const std::vector<std::uint8_t>&
   return sum;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::extract

@@ -5,7 +5,7 @@
 #include "common/mesh/facet_surface.h"
 #include "stages/extract/storeys.h"
 
-namespace roomcut {
+namespace roomcut::extract {
 
 /// The faces of the product complex where the label differs (beyond the bounding box all is solid), as facets
 /// whose normals point out of the empty cell. Vertex (v, level l) has index l * vertices + v and the
@@ -17,4 +17,4 @@ FacetSurface surface_of_labels(const CellComplex& complex, const std::vector<std
 /// Sum of the volumes of the empty cells [m^3].
 double empty_volume(const CellComplex& complex, const std::vector<std::uint8_t>& label);
 
-}  // namespace roomcut
+}  // namespace roomcut::extract

@@ -11,7 +11,7 @@
 #include "common/cells/manifold_check.h"
 #include "stages/extract/plan_cutter.h"
 
-namespace roomcut {
+namespace roomcut::extract {
 
 namespace {
 
@@ -327,4 +327,4 @@ void open_passages(const std::vector<Passage>& passages, Labels& labels) {
   }
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::extract

@@ -7,7 +7,7 @@
 #include "common/cells/cell_complex.h"
 #include "common/openings/opening.h"
 
-namespace roomcut {
+namespace roomcut::extract {
 
 /// An opening as cells of the refined complex.
 struct Passage {
@@ -38,4 +38,4 @@ OpenableComplex cut_openings(const CellComplex& complex, const Labels& labels,
 /// Labels the passages' cells empty.
 void open_passages(const std::vector<Passage>& passages, Labels& labels);
 
-}  // namespace roomcut
+}  // namespace roomcut::extract

@@ -10,7 +10,7 @@
 #include "stages/extract/cell_surface.h"
 #include "stages/extract/cut_openings.h"
 
-namespace roomcut {
+namespace roomcut::extract {
 
 namespace {
 
@@ -105,4 +105,4 @@ Model extract_model(const CellComplex& complex, const Labels& labels, const std:
   return model;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::extract

@@ -12,7 +12,7 @@
 #include "stages/extract/rooms.h"
 #include "stages/extract/storeys.h"
 
-namespace roomcut {
+namespace roomcut::extract {
 
 struct ExtractParams {
   StoreyParams storeys;
@@ -53,4 +53,4 @@ struct Model {
 Model extract_model(const CellComplex& complex, const Labels& labels, const std::vector<Opening>& openings,
                     const ExtractParams& params);
 
-}  // namespace roomcut
+}  // namespace roomcut::extract

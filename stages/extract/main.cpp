@@ -10,6 +10,7 @@
 namespace {
 
 using namespace roomcut;
+using namespace roomcut::extract;
 
 StageInfo info() {
   StageInfo stage;

@@ -10,7 +10,7 @@
 #include "common/geometry/level_turn.h"
 #include "common/mesh/mesh_io.h"
 
-namespace roomcut {
+namespace roomcut::extract {
 
 namespace {
 
@@ -69,4 +69,4 @@ bool write_model_obj(const std::filesystem::path& path, const Model& model, cons
                                         origin_of(frame), comments_of(frame)));
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::extract

@@ -6,7 +6,7 @@
 #include "common/artefact/json.h"
 #include "stages/extract/extract.h"
 
-namespace roomcut {
+namespace roomcut::extract {
 
 // The end products. The frame's origin is added to all coordinates, so that they lie on the scan.
 
@@ -18,4 +18,4 @@ bool write_model_obj(const std::filesystem::path& path, const Model& model, cons
 /// The members of summary.json (schemas/summary.md).
 Json summary_json(const Model& model, const CellComplex& complex, const Labels& labels);
 
-}  // namespace roomcut
+}  // namespace roomcut::extract

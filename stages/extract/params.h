@@ -4,7 +4,7 @@
 #include "common/params/params.h"
 #include "stages/extract/extract.h"
 
-namespace roomcut {
+namespace roomcut::extract {
 
 /// The block `extract` of pipeline.yaml, bound to `params`.
 inline ParameterTable extract_parameters(ExtractParams& params) {
@@ -16,4 +16,4 @@ inline ParameterTable extract_parameters(ExtractParams& params) {
   };
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::extract

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-namespace roomcut {
+namespace roomcut::extract {
 
 namespace {
 
@@ -197,4 +197,4 @@ CellComplex PlanCutter::result(std::vector<std::int32_t>& parent) const {
   return complex;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::extract

@@ -6,7 +6,7 @@
 
 #include "common/cells/cell_complex.h"
 
-namespace roomcut {
+namespace roomcut::extract {
 
 /// Cuts short lines into the plan of a cell complex. Edges are split where both their faces see it and faces
 /// along chords between two of their corners, so the plan stays conforming and its faces convex.
@@ -46,4 +46,4 @@ class PlanCutter {
   std::vector<std::int32_t> parent_;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::extract

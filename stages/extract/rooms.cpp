@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-namespace roomcut {
+namespace roomcut::extract {
 
 namespace {
 
@@ -136,4 +136,4 @@ std::vector<Space> measure_storeys(const CellComplex& complex, const Labels& lab
   return measure(complex, labels, storeys, groups);
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::extract

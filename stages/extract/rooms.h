@@ -7,7 +7,7 @@
 #include "common/cells/cell_complex.h"
 #include "stages/extract/storeys.h"
 
-namespace roomcut {
+namespace roomcut::extract {
 
 /// What is known of a space: a room, or all rooms of a storey together. Local metres.
 struct Space {
@@ -33,4 +33,4 @@ Rooms find_rooms(const CellComplex& complex, const Labels& labels, const Storeys
 /// Each storey as a whole.
 std::vector<Space> measure_storeys(const CellComplex& complex, const Labels& labels, const Storeys& storeys);
 
-}  // namespace roomcut
+}  // namespace roomcut::extract

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace roomcut {
+namespace roomcut::extract {
 
 namespace {
 
@@ -83,4 +83,4 @@ Storeys find_storeys(const CellComplex& complex, const std::vector<std::uint8_t>
   return out;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::extract

@@ -6,7 +6,7 @@
 
 #include "common/cells/cell_complex.h"
 
-namespace roomcut {
+namespace roomcut::extract {
 
 struct StoreyParams {
   double least_gap_m = 1.8;     ///< between the floors of two storeys
@@ -49,4 +49,4 @@ void for_each_run(const CellComplex& complex, const std::vector<std::uint8_t>& l
   }
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::extract

@@ -5,7 +5,7 @@
 #include "common/geometry/scan_coordinates.h"
 #include "stages/extract/model_files.h"
 
-namespace roomcut {
+namespace roomcut::extract {
 
 namespace {
 
@@ -104,4 +104,4 @@ Json summary_json(const Model& model, const CellComplex& complex, const Labels& 
       {"mesh", check_json(model)}};
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::extract

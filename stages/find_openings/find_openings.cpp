@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <tuple>
 
-namespace roomcut {
+namespace roomcut::find_openings {
 
 namespace {
 
@@ -285,4 +285,4 @@ std::vector<Opening> find_openings(const CellComplex& complex, const std::vector
   return all;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::find_openings

@@ -10,7 +10,7 @@
 #include "stages/find_openings/room_walls.h"
 #include "stages/find_openings/wall_evidence.h"
 
-namespace roomcut {
+namespace roomcut::find_openings {
 
 struct FindOpeningsParams {
   bool enabled = true;
@@ -50,4 +50,4 @@ std::vector<Opening> find_openings(const CellComplex& complex, const std::vector
                                    const WallEvidence& evidence, const FindOpeningsParams& params,
                                    const OpeningTolerances& tolerances);
 
-}  // namespace roomcut
+}  // namespace roomcut::find_openings

@@ -9,6 +9,7 @@
 namespace {
 
 using namespace roomcut;
+using namespace roomcut::find_openings;
 
 StageInfo info() {
   StageInfo stage;
@@ -38,7 +39,7 @@ void body(StageRun& run, const FindOpeningsParams& params) {
     Progress progress = run.progress("observing", cloud.header().points);
     cloud.for_each_tile([&](std::size_t, const CloudTile& tile) { evidence.add(tile); },
                         [&](std::uint64_t points) { progress.advance(points); });
-    result.openings = find_openings(cells.complex, walls, evidence, params, tolerances);
+    result.openings = find_openings::find_openings(cells.complex, walls, evidence, params, tolerances);
     run.count("walls between rooms", static_cast<double>(walls.size()));
   }
   write_openings(run.output("openings"), result, run.provenance());

@@ -4,7 +4,7 @@
 #include "common/params/params.h"
 #include "stages/find_openings/find_openings.h"
 
-namespace roomcut {
+namespace roomcut::find_openings {
 
 /// The block `find_openings` of pipeline.yaml, bound to `params`.
 inline ParameterTable find_openings_parameters(FindOpeningsParams& p) {
@@ -20,4 +20,4 @@ inline ParameterTable find_openings_parameters(FindOpeningsParams& p) {
   };
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::find_openings

@@ -6,7 +6,7 @@
 
 #include "stages/find_openings/robust_position.h"
 
-namespace roomcut {
+namespace roomcut::find_openings {
 
 namespace {
 
@@ -178,4 +178,4 @@ std::optional<RevealSurface> Reveal::find_head(double t0, double t1, double z0, 
   return std::nullopt;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::find_openings

@@ -10,7 +10,7 @@
 #include "stages/find_openings/room_walls.h"
 #include "stages/find_openings/wall_evidence.h"
 
-namespace roomcut {
+namespace roomcut::find_openings {
 
 /// Tolerances that follow from the scan.
 struct OpeningTolerances {
@@ -72,4 +72,4 @@ class Reveal {
   const OpeningTolerances& tolerances_;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::find_openings

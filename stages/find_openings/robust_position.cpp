@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace roomcut {
+namespace roomcut::find_openings {
 
 namespace {
 
@@ -88,4 +88,4 @@ RobustPosition robust_position(std::span<const std::uint64_t> profile, std::size
   return result;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::find_openings

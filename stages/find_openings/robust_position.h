@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-namespace roomcut {
+namespace roomcut::find_openings {
 
 /// Count and mean position of the points in one bin of a profile, in one 64-bit sum: additions commute, so
 /// the result does not depend on the order of the points.
@@ -37,4 +37,4 @@ struct RobustPosition {
 RobustPosition robust_position(std::span<const std::uint64_t> profile, std::size_t start, std::size_t window,
                                double reach, double noise);
 
-}  // namespace roomcut
+}  // namespace roomcut::find_openings

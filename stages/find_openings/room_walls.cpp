@@ -8,7 +8,7 @@
 #include <numbers>
 #include <tuple>
 
-namespace roomcut {
+namespace roomcut::find_openings {
 
 namespace {
 
@@ -185,4 +185,4 @@ std::vector<RoomWall> find_room_walls(const CellComplex& complex, const std::vec
   return walls;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::find_openings

@@ -6,7 +6,7 @@
 
 #include "common/cells/cell_complex.h"
 
-namespace roomcut {
+namespace roomcut::find_openings {
 
 /// A wall with a room on both sides, as the labelled complex has it: solid between two nearly parallel lines,
 /// empty beyond both. Rastered along line a in columns of step_m.
@@ -38,4 +38,4 @@ struct RoomWall {
 std::vector<RoomWall> find_room_walls(const CellComplex& complex, const std::vector<std::uint8_t>& label,
                                       double max_thickness_m, double max_gap_m, double step_m);
 
-}  // namespace roomcut
+}  // namespace roomcut::find_openings

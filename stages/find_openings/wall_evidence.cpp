@@ -8,7 +8,7 @@
 
 #include "stages/find_openings/robust_position.h"
 
-namespace roomcut {
+namespace roomcut::find_openings {
 
 namespace {
 
@@ -197,4 +197,4 @@ WallRasters WallEvidence::rasters(std::size_t wall) const {
   return result;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::find_openings

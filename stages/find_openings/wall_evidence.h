@@ -9,7 +9,7 @@
 #include "common/cloud/cloud.h"
 #include "stages/find_openings/room_walls.h"
 
-namespace roomcut {
+namespace roomcut::find_openings {
 
 /// The evidence on one wall: rasters over (t along face a, z). Rows are row_m high and start at z0.
 struct WallRasters {
@@ -52,4 +52,4 @@ class WallEvidence {
   std::atomic<std::uint64_t> points_{0};
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::find_openings

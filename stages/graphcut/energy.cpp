@@ -7,7 +7,7 @@
 
 #include "common/cells/interfaces.h"
 
-namespace roomcut {
+namespace roomcut::graphcut {
 
 namespace {
 
@@ -79,4 +79,4 @@ double flip_cost(const CellComplex& complex, const EnergyTerms& terms, const std
   return cost;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::graphcut

@@ -6,7 +6,7 @@
 
 #include "common/cells/cell_complex.h"
 
-namespace roomcut {
+namespace roomcut::graphcut {
 
 /// The energy of paper §2 as a sum of capacities on the faces and cells of the complex, in m^3:
 ///   E = sum over cells of D(label) + mu * sum over faces of unseen(omega) * (1 - implied) * area * [labels
@@ -40,4 +40,4 @@ Energy energy_of(const CellComplex& complex, const EnergyTerms& terms,
 double flip_cost(const CellComplex& complex, const EnergyTerms& terms, const std::vector<std::uint8_t>& label,
                  std::size_t cell);
 
-}  // namespace roomcut
+}  // namespace roomcut::graphcut

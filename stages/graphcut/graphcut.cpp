@@ -11,7 +11,7 @@
 #include "stages/graphcut/label_repair.h"
 #include "stages/graphcut/max_flow.h"
 
-namespace roomcut {
+namespace roomcut::graphcut {
 
 namespace {
 
@@ -93,4 +93,4 @@ Graphcut graphcut(const CellComplex& complex, const FaceWeights& weights, const 
   return result;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::graphcut

@@ -6,7 +6,7 @@
 #include "common/cells/cell_complex.h"
 #include "stages/graphcut/params.h"
 
-namespace roomcut {
+namespace roomcut::graphcut {
 
 struct Graphcut {
   Labels labels;
@@ -24,4 +24,4 @@ struct Graphcut {
 Graphcut graphcut(const CellComplex& complex, const FaceWeights& weights, const DataTerms& terms,
                   const GraphcutParams& params);
 
-}  // namespace roomcut
+}  // namespace roomcut::graphcut

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-namespace roomcut {
+namespace roomcut::graphcut {
 
 namespace {
 
@@ -176,4 +176,4 @@ Repair repair_labels(const ManifoldCheck& check, const EnergyTerms& terms,
   return as_repair(opened.added_m3() < filled.added_m3() ? opened : filled);
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::graphcut

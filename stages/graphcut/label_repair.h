@@ -7,7 +7,7 @@
 #include "common/cells/manifold_check.h"
 #include "stages/graphcut/energy.h"
 
-namespace roomcut {
+namespace roomcut::graphcut {
 
 struct Repair {
   std::vector<std::uint8_t> label;
@@ -26,4 +26,4 @@ struct Repair {
 Repair repair_labels(const ManifoldCheck& check, const EnergyTerms& terms,
                      const std::vector<std::uint8_t>& label);
 
-}  // namespace roomcut
+}  // namespace roomcut::graphcut

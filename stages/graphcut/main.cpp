@@ -6,6 +6,7 @@
 namespace {
 
 using namespace roomcut;
+using namespace roomcut::graphcut;
 
 StageInfo info() {
   StageInfo stage;
@@ -34,7 +35,7 @@ void body(StageRun& run, const GraphcutParams& params) {
   const CellsFile cells = read_cells(run.input("cells"));
   const FaceWeights weights = read_weights(run.input("weights"), cells);
   const DataTerms terms = read_data_terms(run.input("terms"), cells);
-  const Graphcut result = graphcut(cells.complex, weights, terms, params);
+  const Graphcut result = graphcut::graphcut(cells.complex, weights, terms, params);
   write_labels(run.output("labels-out"), result.labels, cells, run.provenance());
 
   run.count("cells", static_cast<double>(cells.complex.cells()));

@@ -11,7 +11,7 @@
 
 #include "common/cells/interfaces.h"
 
-namespace roomcut {
+namespace roomcut::graphcut {
 
 namespace {
 
@@ -62,4 +62,4 @@ Cut minimum_cut(const CellComplex& complex, const EnergyTerms& terms) {
   return cut;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::graphcut

@@ -7,7 +7,7 @@
 #include "common/cells/cell_complex.h"
 #include "stages/graphcut/energy.h"
 
-namespace roomcut {
+namespace roomcut::graphcut {
 
 /// A labelling of least energy, by one max-flow (Boykov-Kolmogorov). Of several optima the one with the
 /// fewest empty cells, which is unique: the result does not depend on the order of the graph. `flow_m3` is
@@ -19,4 +19,4 @@ struct Cut {
 
 Cut minimum_cut(const CellComplex& complex, const EnergyTerms& terms);
 
-}  // namespace roomcut
+}  // namespace roomcut::graphcut

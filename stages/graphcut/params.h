@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-namespace roomcut {
+namespace roomcut::graphcut {
 
 /// Parameters of graphcut (names, units, ranges and meanings: graphcut_parameters() in main.cpp).
 struct GraphcutParams {
@@ -9,4 +9,4 @@ struct GraphcutParams {
   double min_observed = 0.1;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::graphcut

@@ -5,7 +5,7 @@
 
 #include "stages/ingest/scan_bytes.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// Walks through a file in big blocks, for records whose size only shows on the way.
 class ByteCursor {
@@ -38,4 +38,4 @@ class ByteCursor {
   std::vector<unsigned char> buffer_;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

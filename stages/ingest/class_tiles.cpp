@@ -13,7 +13,7 @@
 #include "stages/ingest/large_tile.h"
 #include "stages/ingest/surface_tile.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -204,4 +204,4 @@ double density_of(const SurfaceEstimates& estimates) {
   return area > 0 ? 1 / area : 0;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -5,7 +5,7 @@
 #include <bit>
 #include <cmath>
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -90,4 +90,4 @@ double chord_of_square(double nx, double ny, double d) {
   return std::clamp((kHalf * (c + s) - d) / (c * s), 1.0, whole);
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

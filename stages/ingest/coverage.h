@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// Which of the 27 voxels of a neighbourhood hold points: bit 3·column + (0, 1, 2 upwards), columns
 /// row-major.
@@ -26,4 +26,4 @@ Covered covered_cells(std::uint32_t points, int filled);
 /// lies in the square; 3 for a line along the axes through the centre. At least 1.
 double chord_of_square(double nx, double ny, double d);
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -14,7 +14,7 @@
 #include "stages/ingest/decoder_stream.h"
 #include "stages/ingest/scratch_file.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -182,4 +182,4 @@ std::unique_ptr<ScanReader> open_decoded(const ScanFile& file, const std::string
   return reader;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

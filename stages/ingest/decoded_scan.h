@@ -7,7 +7,7 @@
 #include "stages/ingest/scan_file.h"
 #include "stages/ingest/scan_reader.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// The decoder for a file that begins so: "e57" or "las" (LAS and LAZ); nullptr when it needs none.
 const char* decoder_of(std::string_view head);
@@ -21,4 +21,4 @@ const char* decoder_of(std::string_view head);
 std::unique_ptr<ScanReader> open_decoded(const ScanFile& file, const std::string& decoder,
                                          const ScanOptions& options);
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

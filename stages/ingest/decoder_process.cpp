@@ -19,7 +19,7 @@ extern "C" {  // glibc 2.36 declares them for C alone
 #include <sys/pidfd.h>
 }
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -164,4 +164,4 @@ std::string DecoderProcess::finish() {
   return said.empty() ? how : how + ": " + said.substr(0, 200);
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// A program whose standard output is read here; its standard error is kept aside. It ends with this process,
 /// however that ends. All but stop() is for one thread at a time.
@@ -41,4 +41,4 @@ class DecoderProcess {
   bool stands_still_ = false;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -7,7 +7,7 @@
 
 #include "common/errors/codes.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -168,4 +168,4 @@ void DecoderStream::fail(const std::string& text) const {
   throw std::logic_error("the list ends with kScanFormat");
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -11,7 +11,7 @@
 #include "stages/ingest/decoder_process.h"
 #include "stages/ingest/scan_reader.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// How a decoder writes its points (decoders/point_stream.py).
 enum class PointForm : std::uint64_t {
@@ -81,4 +81,4 @@ class DecoderStream {
   bool ended_ = false;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -55,4 +55,4 @@ std::uint64_t DuplicateCounter::count(const TileGrid& grid) {
   return all;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

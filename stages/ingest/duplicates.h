@@ -6,7 +6,7 @@
 
 #include "stages/ingest/tile_grid.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// Counts points that repeat another one's coordinates, as a file holds them that was written twice over, or
 /// whose scans overlap with themselves. One for each thread.
@@ -23,4 +23,4 @@ class DuplicateCounter {
   std::vector<std::uint64_t> keys_;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages/ingest/estimates.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 void LogHistogram::add(const LogHistogram& other) {
   for (std::size_t i = 0; i < bins_.size(); ++i) {
@@ -36,4 +36,4 @@ LogHistogram LogHistogram::below(double limit) const {
   return part;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -7,7 +7,7 @@
 
 #include "stages/ingest/lean.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// Counts of a positive quantity in bins of 1 to 1.6 % (64 equal parts of each octave, straight from the bits
 /// of a float), for a median that does not depend on order and needs no memory per value. Values outside
@@ -49,4 +49,4 @@ struct SurfaceEstimates {
   }
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// The grid that everything in `ingest` stands on. A voxel edge is divided into 1024 units, so voxels, their
 /// coarser parents and tiles follow from an integer coordinate by shifts, sums of coordinates are exact and
@@ -57,4 +57,4 @@ inline int column_of(float x, float y, std::int32_t ix, std::int32_t iy, const U
   return row * TileColumns::kAlong + column;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <numeric>
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -182,4 +182,4 @@ FloorFit::Slope FloorFit::slope(const Slope& slope) const {
   return std::hypot(found[0] - slope[0], found[1] - slope[1]) < kFarthest ? found : slope;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

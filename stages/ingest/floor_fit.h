@@ -8,7 +8,7 @@
 
 #include "common/cloud/cloud.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// How floors and ceilings lean, from the heights of their points over their whole length: to a thousandth of
 /// a degree, where normals (LeanSums), which know some decimetres each, are good to a hundredth. That is 0.2
@@ -45,4 +45,4 @@ class FloorFit {
   std::map<Place, Sums> cells_;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

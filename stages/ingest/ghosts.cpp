@@ -8,7 +8,7 @@
 
 #include "stages/ingest/fixed_grid.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -235,4 +235,4 @@ KeptCells without_ghosts(const std::vector<CellCount>& counts) {
   return result;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// Points in one cell of the window: a cube with the edge of a tile.
 struct CellCount {
@@ -40,4 +40,4 @@ struct KeptCells {
 /// as dense as the hall is a building. Other cells are kept when they touch a kept one.
 KeptCells without_ghosts(const std::vector<CellCount>& counts);
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -14,7 +14,7 @@
 #include "stages/ingest/scan_reader.h"
 #include "stages/ingest/tile_store.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// Where the points went.
 struct IngestCounts {
@@ -87,4 +87,4 @@ double noise_of(const SurfaceEstimates& estimates, double step_m);
 /// Points per square metre; 0 without points.
 double density_of(const SurfaceEstimates& estimates);
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

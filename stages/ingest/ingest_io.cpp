@@ -14,7 +14,7 @@
 #include "stages/ingest/text_columns.h"
 #include "stages/ingest/up_axis.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -255,4 +255,4 @@ void run_ingest(StageRun& run, const IngestParams& params) {
   }
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -4,11 +4,11 @@
 #include "common/cli/run_stage.h"
 #include "stages/ingest/params.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 StageInfo ingest_info();
 ParameterTable ingest_parameters(IngestParams& params);
 /// Reads the scan, writes cloud.h5, tells the user what was dropped and what the cloud is like.
 void run_ingest(StageRun& run, const IngestParams& params);
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -6,7 +6,7 @@
 
 #include "stages/ingest/duplicates.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -131,4 +131,4 @@ std::uint64_t LargeTile::hand_over(const std::function<void(const CloudTile&, bo
   return duplicates;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -7,7 +7,7 @@
 #include "stages/ingest/surface_tile.h"
 #include "stages/ingest/tile_store.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// A tile with more points than memory should hold at once. They are taken from the store in bands of
 /// columns, once for the moments, from which the surfaces follow as for any tile, and once to be handed on.
@@ -54,4 +54,4 @@ class LargeTile {
   bool use_normals_ = false;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <numeric>
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -158,4 +158,4 @@ Lean lean_of(const LeanSums& sums, const FloorFit& fit) {
   return lean;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

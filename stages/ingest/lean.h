@@ -7,7 +7,7 @@
 
 #include "stages/ingest/floor_fit.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// How a plane leans, in units of 2^-15: of a level one the slope of its normal along x and y; of an upright
 /// one (x alone) the slope of its normal upwards, the normal taken on the side of its azimuth.
@@ -52,4 +52,4 @@ struct Lean {
 /// By the floors' normals, and more exactly by the heights in `fit`.
 Lean lean_of(const LeanSums& sums, const FloorFit& fit = {});
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

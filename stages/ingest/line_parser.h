@@ -9,7 +9,7 @@
 #include "stages/ingest/text_layout.h"
 #include "stages/ingest/text_lines.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 inline const char* skip_blanks(const char* p, const char* end) {
   while (p < end && is_blank(*p)) {
@@ -114,4 +114,4 @@ class LineParser {
   std::array<double, 6> values_{};
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

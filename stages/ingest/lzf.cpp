@@ -6,7 +6,7 @@
 
 #include "stages/ingest/byte_cursor.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -86,4 +86,4 @@ std::uint64_t decompress_lzf(const ScanBytes& file, std::uint64_t begin, std::ui
   return window.total();
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -7,7 +7,7 @@
 
 #include "stages/ingest/scan_bytes.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// Takes the next decompressed bytes.
 using TakeBytes = std::function<void(std::span<const std::byte>)>;
@@ -18,4 +18,4 @@ using TakeBytes = std::function<void(std::span<const std::byte>)>;
 std::uint64_t decompress_lzf(const ScanBytes& file, std::uint64_t begin, std::uint64_t size,
                              std::uint64_t most, const TakeBytes& take);
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

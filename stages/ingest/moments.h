@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// Sums over points of their integer coordinates (units of fixed_grid.h, from one corner per tile) and of the
 /// products, and their number: one cache line. All arithmetic is modulo 2^32 or 2^64: the sums may wrap, but
@@ -95,4 +95,4 @@ inline Spread spread_of(const Moments& m, const std::array<std::uint32_t, 3>& ce
   return spread;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -9,7 +9,7 @@
 #include "common/cloud/cloud.h"
 #include "stages/ingest/params.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// Azimuth byte of an upright plane with this normal (either of its two directions).
 inline std::uint8_t azimuth_step(double nx, double ny) {
@@ -38,4 +38,4 @@ inline std::uint16_t normal_hint(float nx, float ny, float nz, const IngestParam
   return static_cast<std::uint16_t>(static_cast<unsigned>(surface) + 256 * azimuth);
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -7,7 +7,7 @@
 #include <limits>
 #include <system_error>
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace number_text {
 
@@ -67,4 +67,4 @@ inline const char* parse_number(const char* p, const char* end, double& value) {
   return error == std::errc() ? stop : nullptr;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// What a user may change about `ingest`.
 struct IngestParams {
@@ -12,4 +12,4 @@ struct IngestParams {
       0.5;  ///< a neighbourhood is a plane when its two smallest variances differ by this factor
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

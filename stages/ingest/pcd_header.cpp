@@ -10,7 +10,7 @@
 #include "common/errors/codes.h"
 #include "stages/ingest/text_dialect.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -202,4 +202,4 @@ PcdHeader read_pcd_header(const ScanBytes& text) {
                    "export or copy the scan again");
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

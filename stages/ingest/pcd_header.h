@@ -7,7 +7,7 @@
 
 #include "stages/ingest/scan_bytes.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 enum class PcdData { kAscii, kBinary, kCompressed };
 
@@ -35,4 +35,4 @@ bool is_pcd(const ScanBytes& text);
 /// kScanTruncated (no DATA).
 PcdHeader read_pcd_header(const ScanBytes& text);
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -71,4 +71,4 @@ Plane plane_of(const Spread& spread) {
   return plane;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -5,7 +5,7 @@
 
 #include "stages/ingest/moments.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// The best plane of a neighbourhood: variances ascending (units^2) and the direction of the smallest.
 struct Plane {
@@ -18,4 +18,4 @@ struct Plane {
 /// iteration to convergence.
 Plane plane_of(const Spread& spread);
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -5,7 +5,7 @@
 
 #include "common/errors/codes.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -48,4 +48,4 @@ PlyColumns find_columns(const PlyElement& vertex, const ScanBytes& file) {
   return columns;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

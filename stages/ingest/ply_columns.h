@@ -6,7 +6,7 @@
 #include "stages/ingest/ply_header.h"
 #include "stages/ingest/scan_reader.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// Where x, y, z, nx, ny, nz stand among the properties of an element.
 struct PlyColumns {
@@ -42,4 +42,4 @@ inline void store_column(ScanBlock& block, int column, std::size_t point, double
   }
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -5,7 +5,7 @@
 
 #include "common/errors/codes.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -36,4 +36,4 @@ std::size_t elements_after_vertices(const PlyHeader& header) {
                     header.elements.end(), [](const PlyElement& element) { return element.count > 0; }));
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

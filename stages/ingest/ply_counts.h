@@ -5,7 +5,7 @@
 
 #include "stages/ingest/ply_header.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// Throws kScanTruncated: fewer elements than the header promises; `found` is a count, or words for it.
 [[noreturn]] void too_few(const ScanBytes& file, const PlyElement& element, const std::string& found);
@@ -17,4 +17,4 @@ namespace roomcut {
 /// The elements after the vertices that promise anything, e.g. faces; 0 when the vertices are the last.
 std::size_t elements_after_vertices(const PlyHeader& header);
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

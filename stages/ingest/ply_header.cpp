@@ -10,7 +10,7 @@
 
 #include "common/errors/codes.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -188,4 +188,4 @@ PlyHeader read_ply_header(const ScanBytes& file) {
                    "export or copy the scan again");
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -8,7 +8,7 @@
 #include "stages/ingest/scalar_type.h"
 #include "stages/ingest/scan_bytes.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 enum class PlyFormat { kAscii, kLittleEndian, kBigEndian };
 
@@ -40,4 +40,4 @@ struct PlyHeader {
 /// Reads the header. Errors: kScanFormat (with the header line), kScanTruncated (no end_header).
 PlyHeader read_ply_header(const ScanBytes& file);
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

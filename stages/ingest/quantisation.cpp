@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -66,4 +66,4 @@ double quantisation_step(const ScanBlock& sample, const ScanFrame& frame, const 
   return largest;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// The numbers that binary point files hold.
 enum class ScalarType : std::uint8_t { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
@@ -59,4 +59,4 @@ auto with_loader(ScalarType type, bool swap, F&& f) {
   }
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// Bytes that can be read at any place, by several threads at once: those of a file, or what they stand for.
 class ScanBytes {
@@ -18,4 +18,4 @@ class ScanBytes {
   virtual std::size_t read(std::uint64_t offset, void* out, std::size_t bytes) const = 0;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -11,7 +11,7 @@
 
 #include "common/errors/codes.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -84,4 +84,4 @@ std::size_t ScanFile::read(std::uint64_t offset, void* out, std::size_t bytes) c
   return done;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -8,7 +8,7 @@
 
 #include "stages/ingest/scan_bytes.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// A scan opened for reading at any place, by several threads at once. Nothing is held in memory.
 class ScanFile : public ScanBytes {
@@ -33,4 +33,4 @@ class ScanFile : public ScanBytes {
   std::uint64_t size_ = 0;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -9,7 +9,7 @@
 
 #include "common/geometry/level_turn.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -150,4 +150,4 @@ void to_local(const ScanBlock& block, const ScanFrame& frame, const UnitScale& s
   resize(local, kept, normals);
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -9,7 +9,7 @@
 #include "stages/ingest/fixed_grid.h"
 #include "stages/ingest/scan_reader.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// How a scan's coordinates become local ones: unit, up axis, origin; and the part of space that is looked
 /// at.
@@ -55,4 +55,4 @@ ScanFrame choose_frame(const Vec3& middle, const std::string& unit, const std::s
 /// Converts a block. Keeps the order. `local` is overwritten, its capacity used again.
 void to_local(const ScanBlock& block, const ScanFrame& frame, const UnitScale& scale, LocalPoints& local);
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

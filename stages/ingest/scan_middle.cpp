@@ -12,7 +12,7 @@
 #include <exception>
 #include <mutex>
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -118,4 +118,4 @@ Vec3 scan_middle(const ScanReader& reader, const ScanBlock& sample, double reach
                               static_cast<double>(total.steps[2]));
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -6,7 +6,7 @@
 
 #include "stages/ingest/scan_reader.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// Called with a block's index and its points, those without return taken out.
 using VisitBlock = std::function<void(std::size_t, const ScanBlock&)>;
@@ -24,4 +24,4 @@ void for_blocks(const ScanReader& reader, const VisitBlock& visit);
 Vec3 scan_middle(const ScanReader& reader, const ScanBlock& sample, double reach,
                  const std::function<void(std::uint64_t)>& advance = {});
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

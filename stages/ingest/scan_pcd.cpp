@@ -14,7 +14,7 @@
 #include "stages/ingest/spooled_bytes.h"
 #include "stages/ingest/text_lines.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -210,4 +210,4 @@ std::unique_ptr<ScanReader> open_pcd(const std::shared_ptr<const ScanBytes>& fil
                                          : compressed_reader(file, header, fields, scratch_folder);
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -7,7 +7,7 @@
 #include "stages/ingest/scan_reader.h"
 #include "stages/ingest/text_bytes.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// A PCD file: ascii, binary or binary_compressed; x, y, z (and normal_x, normal_y, normal_z) of any type but
 /// 64-bit integers; other fields are skipped. `text` is the same file as lines. A VIEWPOINT without rotation
@@ -17,4 +17,4 @@ std::unique_ptr<ScanReader> open_pcd(const std::shared_ptr<const ScanBytes>& fil
                                      const std::shared_ptr<const TextBytes>& text,
                                      const std::filesystem::path& scratch_folder);
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -13,7 +13,7 @@
 #include "stages/ingest/scan_records.h"
 #include "stages/ingest/scan_stations.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -233,4 +233,4 @@ std::unique_ptr<ScanReader> open_ply(const std::shared_ptr<const ScanBytes>& fil
   return fixed_ply(file, header, first);
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -7,7 +7,7 @@
 #include "stages/ingest/scan_reader.h"
 #include "stages/ingest/text_bytes.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// A PLY file: ascii, binary little or big endian; x, y, z (and nx, ny, nz) of any scalar type; other
 /// properties, lists and elements are skipped. `text` is the same file as lines. Bytes behind the last
@@ -19,4 +19,4 @@ std::unique_ptr<ScanReader> open_ply(const std::shared_ptr<const ScanBytes>& fil
 /// Whether a file that begins so is a PLY.
 bool is_ply(std::string_view head);
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

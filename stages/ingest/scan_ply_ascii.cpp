@@ -10,7 +10,7 @@
 #include "stages/ingest/scan_stations.h"
 #include "stages/ingest/scan_text.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -98,4 +98,4 @@ std::unique_ptr<ScanReader> open_ascii_ply(const std::shared_ptr<const ScanBytes
   return reader;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -11,7 +11,7 @@
 #include "stages/ingest/scan_text.h"
 #include "stages/ingest/text_lines.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -195,4 +195,4 @@ std::unique_ptr<ScanReader> open_ptx(const std::shared_ptr<const ScanBytes>& tex
   return std::make_unique<PtxReader>(text);
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

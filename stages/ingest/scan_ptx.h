@@ -5,7 +5,7 @@
 
 #include "stages/ingest/scan_reader.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// Whether a text is a PTX file: two counts, then lines of three, three, three, three, four … numbers.
 bool is_ptx(const ScanBytes& text);
@@ -18,4 +18,4 @@ bool is_ptx(const ScanBytes& text);
 /// columns × rows, or more).
 std::unique_ptr<ScanReader> open_ptx(const std::shared_ptr<const ScanBytes>& text);
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

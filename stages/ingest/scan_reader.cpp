@@ -14,7 +14,7 @@
 #include "stages/ingest/scan_text.h"
 #include "stages/ingest/text_bytes.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -107,4 +107,4 @@ std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& path, const S
   return reader;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

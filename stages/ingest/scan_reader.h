@@ -10,7 +10,7 @@
 #include "common/geometry/line2.h"
 #include "stages/ingest/scan_file.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// Points as they stand in the file: its unit, axes and order; not checked for being finite.
 struct ScanBlock {
@@ -79,4 +79,4 @@ class ScanReader {
 /// kScanColumns.
 std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& path, const ScanOptions& options = {});
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -99,4 +99,4 @@ double spacing_of(ScalarType type, double magnitude) {
   return std::nextafter(value, std::numeric_limits<float>::infinity()) - value;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -7,7 +7,7 @@
 #include "stages/ingest/scalar_type.h"
 #include "stages/ingest/scan_reader.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// Where the numbers of one column stand.
 struct RecordColumn {
@@ -31,4 +31,4 @@ std::unique_ptr<ScanReader> record_reader(const std::shared_ptr<const ScanBytes>
 /// The distance from `magnitude` to the next number of a type; 0 for doubles and integers.
 double spacing_of(ScalarType type, double magnitude);
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -12,7 +12,7 @@
 #include "stages/ingest/scan_file.h"
 #include "stages/ingest/text_bytes.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -119,4 +119,4 @@ std::vector<Vec3> read_stations(const std::filesystem::path& path) {
   return stations;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -7,7 +7,7 @@
 
 #include "common/geometry/line2.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// Scanner positions in the comments of a PLY header, in the file's unit and axes. Two forms are read:
 /// `comment station X Y Z`, one each, and `comment scanner positions …: X Y Z and X Y Z …`. When the second
@@ -20,4 +20,4 @@ std::vector<Vec3> stations_of_comments(const std::vector<std::string>& comments)
 /// lines that begin with # are comments. Errors: those of ScanFile, kScanBadLine.
 std::vector<Vec3> read_stations(const std::filesystem::path& path);
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -10,7 +10,7 @@
 #include "stages/ingest/line_parser.h"
 #include "stages/ingest/text_lines.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -160,4 +160,4 @@ std::unique_ptr<ScanReader> text_reader(const std::shared_ptr<const ScanBytes>& 
   return std::make_unique<TextReader>(text, layout, stations);
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

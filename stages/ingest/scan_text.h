@@ -6,7 +6,7 @@
 #include "stages/ingest/scan_reader.h"
 #include "stages/ingest/text_layout.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// A cloud as plain text: .xyz .txt .csv .pts .asc; separators space, tab, comma or semicolon; decimal point
 /// or comma. Columns are those that the user names, else by a line of names, else the first three; which they
@@ -21,4 +21,4 @@ std::unique_ptr<ScanReader> open_text(const std::shared_ptr<const ScanBytes>& te
 std::unique_ptr<ScanReader> text_reader(const std::shared_ptr<const ScanBytes>& text,
                                         const TextLayout& layout, const std::vector<Vec3>& stations);
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -11,7 +11,7 @@
 #include "common/errors/codes.h"
 #include "common/errors/error.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -65,4 +65,4 @@ void ScratchFile::read(std::uint64_t offset, std::span<std::byte> bytes) const {
   }
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -6,7 +6,7 @@
 #include <mutex>
 #include <span>
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// A file without a name for points that shall not stay in memory: it goes with the process, however that
 /// ends.
@@ -31,4 +31,4 @@ class ScratchFile {
   int descriptor_ = -1;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

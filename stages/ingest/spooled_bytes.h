@@ -10,7 +10,7 @@
 #include "stages/ingest/scan_bytes.h"
 #include "stages/ingest/scratch_file.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// What a decoder gives, one byte after the other, kept in a scratch file for being read at any place.
 class SpooledBytes : public ScanBytes {
@@ -42,4 +42,4 @@ class SpooledBytes : public ScanBytes {
   std::uint64_t size_ = 0;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -8,7 +8,7 @@
 #include "stages/ingest/normal_hint.h"
 #include "stages/ingest/plane.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -355,4 +355,4 @@ const std::vector<VoxelSurface>& SurfaceFinder::find(const TileGrid& grid, const
   return result_;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -10,7 +10,7 @@
 #include "stages/ingest/params.h"
 #include "stages/ingest/tile_grid.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// What a neighbourhood of 27 voxels says about the surface in its middle.
 struct VoxelSurface {
@@ -69,4 +69,4 @@ class SurfaceFinder {
   std::vector<VoxelSurface> result_;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -87,4 +87,4 @@ void make_cloud_part(const TileGrid& grid, const std::vector<VoxelSurface>& surf
   });
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -4,7 +4,7 @@
 #include "common/cloud/cloud.h"
 #include "stages/ingest/surface.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// Whether the file's normals contradict the planes that the points of a tile lie on: more than 30 % of the
 /// points on clear planes. Then they are left aside there.
@@ -25,4 +25,4 @@ class NormalsCheck {
 void make_cloud_part(const TileGrid& grid, const std::vector<VoxelSurface>& surfaces, bool use_normals,
                      CloudTile& out);
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

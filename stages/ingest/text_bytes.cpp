@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -91,4 +91,4 @@ std::size_t TextBytes::read(std::uint64_t offset, void* out, std::size_t bytes) 
   return got;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -5,7 +5,7 @@
 
 #include "stages/ingest/scan_bytes.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// A text file as plain lines: one byte a character, each line ended by '\n', no byte-order mark.
 /// UTF-16 of either byte order (told by its mark, or by every second byte being 0) is taken character by
@@ -35,4 +35,4 @@ class TextBytes : public ScanBytes {
   std::uint64_t size_ = 0;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

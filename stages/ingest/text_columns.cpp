@@ -7,7 +7,7 @@
 
 #include "common/errors/codes.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -270,4 +270,4 @@ ColumnChoice choose_columns(const TextHead& head, const std::vector<int>& given,
   return given.empty() ? chooser.by_names_or_order() : chooser.by_given(given);
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -7,7 +7,7 @@
 #include "stages/ingest/text_dialect.h"
 #include "stages/ingest/text_names.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// The beginning of a text table, taken apart.
 struct TextHead {
@@ -34,4 +34,4 @@ std::vector<int> parse_columns(const std::string& text);
 /// header, the first line and what each column would be. `name`: of the file.
 ColumnChoice choose_columns(const TextHead& head, const std::vector<int>& given, const std::string& name);
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

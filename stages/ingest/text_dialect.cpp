@@ -8,7 +8,7 @@
 
 #include "stages/ingest/number_text.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -112,4 +112,4 @@ TextDialect dialect_of(std::string_view line) {
   return dialect;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

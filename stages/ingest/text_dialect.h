@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// How the fields of a text table's lines are written.
 struct TextDialect {
@@ -34,4 +34,4 @@ bool is_missing(std::string_view field);
 /// separated by blanks have one each ("1,5 100 2,25"), otherwise they separate; else blanks do.
 TextDialect dialect_of(std::string_view line);
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -9,7 +9,7 @@
 #include "common/errors/codes.h"
 #include "stages/ingest/text_columns.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -278,4 +278,4 @@ TextLayout sniff_text(const ScanBytes& text, const std::vector<int>& given) {
   return Sniffer(text, given).layout();
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -9,7 +9,7 @@
 #include "stages/ingest/scan_bytes.h"
 #include "stages/ingest/text_dialect.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// What one line of a text cloud consists of.
 struct TextLayout {
@@ -35,4 +35,4 @@ TextLayout sniff_text(const ScanBytes& text, const std::vector<int>& given = {})
 /// Whether a line is a comment: it begins with #, // or %.
 bool is_comment_line(const char* begin, const char* end);
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <vector>
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -61,4 +61,4 @@ std::uint64_t end_of_lines(const ScanBytes& text, std::uint64_t begin, std::uint
   return end;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

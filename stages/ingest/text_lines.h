@@ -5,7 +5,7 @@
 
 #include "stages/ingest/scan_bytes.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 inline bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r';
@@ -18,4 +18,4 @@ std::uint64_t line_number(const ScanBytes& text, std::uint64_t offset);
 std::uint64_t end_of_lines(const ScanBytes& text, std::uint64_t begin, std::uint64_t lines,
                            std::uint64_t& found);
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -5,7 +5,7 @@
 #include <array>
 #include <cctype>
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -152,4 +152,4 @@ NamedColumns columns_of_names(const Fields& names) {
   return result;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

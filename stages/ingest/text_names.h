@@ -6,7 +6,7 @@
 
 #include "stages/ingest/text_dialect.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// What a column of a text table is: 0 … 5 for x, y, z, nx, ny, nz, or kNoRole.
 inline constexpr int kNoRole = -1;
@@ -30,4 +30,4 @@ std::string bare_name(std::string_view name);
 /// Whether all names are units: a second header line, "[m],[m],[m]".
 bool only_units(const Fields& names);
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 using namespace fixed_grid;
 
@@ -174,4 +174,4 @@ std::array<std::uint32_t, 3> TileGrid::centre(int level, int ix, int iy, std::ui
   return {middle(ix), middle(iy), middle(z)};
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -8,7 +8,7 @@
 #include "stages/ingest/tile_store.h"
 #include "stages/ingest/voxel_level.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// A tile's place, in tile edges from the local origin, and the kept layers of it and the eight around it
 /// (row-major, itself in the middle; bit i: layer i above `window_z`).
@@ -84,4 +84,4 @@ void for_own_voxels(const TileGrid& grid, Visit&& visit) {
   }
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

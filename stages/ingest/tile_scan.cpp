@@ -10,7 +10,7 @@
 #include "stages/ingest/quantisation.h"
 #include "stages/ingest/scan_middle.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -190,4 +190,4 @@ TiledScan tile_scan(const ScanReader& reader, const ScanSettings& settings, cons
   return scan;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

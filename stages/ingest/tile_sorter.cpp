@@ -2,7 +2,7 @@
 #include "stages/ingest/normal_hint.h"
 #include "stages/ingest/tile_store.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 using namespace fixed_grid;
 
@@ -140,4 +140,4 @@ void TileSorter::sort(const LocalPoints& local, SortedBlock& block) {
   clear();
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

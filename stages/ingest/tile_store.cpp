@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 TileStore::TileStore(std::filesystem::path folder, std::size_t blocks, std::uint64_t memory_bytes, bool hints)
     : blocks_(blocks), budget_(memory_bytes), scratch_(std::move(folder)), hints_(hints) {}
@@ -83,4 +83,4 @@ void TileStore::gather(std::uint32_t tile, TilePoints& loaded, TileRuns& runs) c
   runs.push_back(run_of(loaded));
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -13,7 +13,7 @@
 #include "stages/ingest/scan_frame.h"
 #include "stages/ingest/scratch_file.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// The points of one tile and of the halo around it, in file order.
 struct TilePoints {
@@ -139,4 +139,4 @@ class TileStore {
   bool hints_;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

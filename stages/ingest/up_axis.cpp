@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 namespace {
 
@@ -50,4 +50,4 @@ std::string upright_floors(const AxisAreas& areas, const Vec3& low, const Vec3& 
   return "";
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -6,7 +6,7 @@
 
 #include "common/cloud/cloud.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// Area of surface across each axis: planes whose normal lies within 5° of x or y, and level ones for z.
 class AxisAreas {
@@ -24,4 +24,4 @@ class AxisAreas {
 /// box, as it was read with up axis `up`.
 std::string upright_floors(const AxisAreas& areas, const Vec3& low, const Vec3& high, const std::string& up);
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

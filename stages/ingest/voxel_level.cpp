@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 void VoxelLevel::clear(int at_level) {
   level = at_level;
@@ -71,4 +71,4 @@ void coarsen(VoxelLevel& fine, VoxelLevel& coarse) {
   coarse.begin.push_back(static_cast<std::uint32_t>(coarse.size()));
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

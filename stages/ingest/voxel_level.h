@@ -8,7 +8,7 @@
 #include "stages/ingest/fixed_grid.h"
 #include "stages/ingest/moments.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 
 /// Occupied voxels of one edge length in a tile and its halo, by column (row-major in plan), upwards in a
 /// column.
@@ -75,4 +75,4 @@ class Neighbourhood {
   std::array<std::uint32_t, 9> end_{};
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::ingest

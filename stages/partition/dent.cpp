@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace roomcut {
+namespace roomcut::partition {
 
 namespace {
 
@@ -41,4 +41,4 @@ double dent(std::vector<Vec2> corners) {
   return deepest;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::partition

@@ -5,7 +5,7 @@
 
 #include "common/geometry/line2.h"
 
-namespace roomcut {
+namespace roomcut::partition {
 
 /// How far a polygon is from being convex: the largest distance of a corner from the side of the convex hull
 /// that passes over it [m]; 0 for a convex polygon. `corners` counter-clockwise, at least 3, of a polygon
@@ -13,4 +13,4 @@ namespace roomcut {
 /// on how short the sides there are. Linear.
 double dent(std::vector<Vec2> corners);
 
-}  // namespace roomcut
+}  // namespace roomcut::partition

@@ -7,7 +7,7 @@
 #include "common/cells/cell_complex.h"
 #include "stages/partition/reach.h"
 
-namespace roomcut {
+namespace roomcut::partition {
 
 namespace {
 
@@ -201,4 +201,4 @@ bool LineInserter::worth_a_split(const ChordEnd& down, const ChordEnd& up) const
   return left > 0.5 * kPlanSnap_m && right < -0.5 * kPlanSnap_m;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::partition

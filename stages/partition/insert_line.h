@@ -8,7 +8,7 @@
 
 #include "stages/partition/subdivision.h"
 
-namespace roomcut {
+namespace roomcut::partition {
 
 /// Cuts lines into a subdivision. Keeps scratch memory between lines.
 class LineInserter {
@@ -53,4 +53,4 @@ class LineInserter {
   std::set<std::pair<std::int32_t, std::int32_t>> shared_;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::partition

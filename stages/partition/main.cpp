@@ -11,6 +11,7 @@
 namespace {
 
 using namespace roomcut;
+using namespace roomcut::partition;
 
 StageInfo info() {
   StageInfo stage;
@@ -43,7 +44,7 @@ void body(StageRun& run, const PartitionParams& params) {
   for (const Level& level : slices.levels) {
     levels.push_back(level.z);
   }
-  const Partition result = partition(lines.content, levels, params);
+  const Partition result = partition::partition(lines.content, levels, params);
   const CellComplex& complex = result.complex;
   const std::string violation = find_violation(complex);
   if (!violation.empty()) {

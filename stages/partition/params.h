@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-namespace roomcut {
+namespace roomcut::partition {
 
 /// Parameters of partition (names, units, ranges and meanings: partition_parameters() in main.cpp).
 struct PartitionParams {
@@ -11,4 +11,4 @@ struct PartitionParams {
   int max_cells = 20000000;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::partition

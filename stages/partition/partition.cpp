@@ -11,7 +11,7 @@
 #include "stages/partition/subdivision.h"
 #include "stages/partition/to_complex.h"
 
-namespace roomcut {
+namespace roomcut::partition {
 
 namespace {
 
@@ -133,4 +133,4 @@ Partition partition(const WallLines& lines, const std::vector<double>& levels,
   return result;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::partition

@@ -7,7 +7,7 @@
 #include "common/wall_lines/wall_line.h"
 #include "stages/partition/params.h"
 
-namespace roomcut {
+namespace roomcut::partition {
 
 struct Partition {
   CellComplex complex;
@@ -22,4 +22,4 @@ struct Partition {
 /// kLinesProperty (a wall slice that does not exist), kTooComplex.
 Partition partition(const WallLines& lines, const std::vector<double>& levels, const PartitionParams& params);
 
-}  // namespace roomcut
+}  // namespace roomcut::partition

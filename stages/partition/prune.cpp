@@ -9,7 +9,7 @@
 #include "common/cells/cell_complex.h"
 #include "stages/partition/dent.h"
 
-namespace roomcut {
+namespace roomcut::partition {
 
 namespace {
 
@@ -90,4 +90,4 @@ void prune(Subdivision& plan, const std::vector<Reach>& reach, const std::vector
   }
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::partition

@@ -6,7 +6,7 @@
 
 #include "stages/partition/reach.h"
 
-namespace roomcut {
+namespace roomcut::partition {
 
 /// A face can only be split along its whole chord, so the lines that were cut in first, when faces were
 /// large, run on far beyond their reach. This takes away every edge that lies beyond its line's reach,
@@ -16,4 +16,4 @@ namespace roomcut {
 /// line of one room does not cut the rooms at the other end.
 void prune(Subdivision& plan, const std::vector<Reach>& reach, const std::vector<std::int32_t>& order);
 
-}  // namespace roomcut
+}  // namespace roomcut::partition

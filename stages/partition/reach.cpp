@@ -6,7 +6,7 @@
 
 #include "common/cells/cell_complex.h"
 
-namespace roomcut {
+namespace roomcut::partition {
 
 bool runs_along(const Subdivision& plan, std::int32_t h, const Line2& line) {
   const Vec2& p = plan.from(h);
@@ -52,4 +52,4 @@ void assign_shared_edges(Subdivision& plan, const std::vector<Reach>& reach,
   }
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::partition

@@ -8,7 +8,7 @@
 
 #include "stages/partition/subdivision.h"
 
-namespace roomcut {
+namespace roomcut::partition {
 
 /// A line and the part of it that is to cut: its support, lengthened at both ends.
 struct Reach {
@@ -30,4 +30,4 @@ void assign_shared_edges(Subdivision& plan, const std::vector<Reach>& reach,
                          const std::set<std::pair<std::int32_t, std::int32_t>>& shared,
                          const std::vector<std::int32_t>& order);
 
-}  // namespace roomcut
+}  // namespace roomcut::partition

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages/partition/subdivision.h"
 
-namespace roomcut {
+namespace roomcut::partition {
 
 Subdivision::Subdivision(const Vec2& low, const Vec2& high)
     : vertices{low, {high.x(), low.y()}, high, {low.x(), high.y()}}, face_start{0}, slot_{-1} {
@@ -150,4 +150,4 @@ std::vector<std::int32_t> Subdivision::faces_in_tree_order() const {
   return order;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::partition

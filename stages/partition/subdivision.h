@@ -6,7 +6,7 @@
 
 #include "common/geometry/line2.h"
 
-namespace roomcut {
+namespace roomcut::partition {
 
 /// A planar subdivision of a rectangle into convex faces, as half-edges: half-edge h and its twin h ^ 1 are
 /// the two sides of one edge, each with the face on its left counter-clockwise; kOutside is beyond the
@@ -72,4 +72,4 @@ class Subdivision {
   void dissolve_end(std::int32_t h);
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::partition

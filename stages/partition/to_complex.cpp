@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages/partition/to_complex.h"
 
-namespace roomcut {
+namespace roomcut::partition {
 
 void to_complex(const Subdivision& plan, CellComplex& complex) {
   const std::vector<std::int32_t> order = plan.faces_in_tree_order();
@@ -41,4 +41,4 @@ void to_complex(const Subdivision& plan, CellComplex& complex) {
   }
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::partition

@@ -4,10 +4,10 @@
 #include "common/cells/cell_complex.h"
 #include "stages/partition/subdivision.h"
 
-namespace roomcut {
+namespace roomcut::partition {
 
 /// Fills vertices, faces and edges of the complex from the subdivision, numbered so that neighbours in space
 /// have neighbouring numbers (the later stages walk over them). Edges run with their first face on the left.
 void to_complex(const Subdivision& plan, CellComplex& complex);
 
-}  // namespace roomcut
+}  // namespace roomcut::partition

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace roomcut {
+namespace roomcut::raycast {
 namespace {
 
 constexpr float kPermanent = 0.5F;  // paper: a face with omega above 1/2 is permanent
@@ -225,4 +225,4 @@ CellEvidence gather_evidence(const CellComplex& complex, const FaceWeights& weig
   return evidence;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::raycast

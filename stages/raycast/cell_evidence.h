@@ -5,7 +5,7 @@
 
 #include "stages/raycast/face_walk.h"
 
-namespace roomcut {
+namespace roomcut::raycast {
 
 /// What a ray ends on, seen through what is not covered.
 struct FirstHit {
@@ -61,4 +61,4 @@ CellEvidence gather_evidence(const CellComplex& complex, const FaceWeights& weig
                              std::size_t face, std::size_t layer, const RayRules& rules,
                              std::vector<Crossing>& scratch);
 
-}  // namespace roomcut
+}  // namespace roomcut::raycast

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace roomcut {
+namespace roomcut::raycast {
 
 namespace {
 constexpr double kStill = 1e-12;  // a ray that moves less towards a face runs along it
@@ -190,4 +190,4 @@ Vec2 FaceWalk::point_in(std::size_t face, double u, double v) const {
   return a + s * (corner(i) - a) + t * (corner(i + 1) - a);
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::raycast

@@ -7,7 +7,7 @@
 
 #include "common/cells/cell_complex.h"
 
-namespace roomcut {
+namespace roomcut::raycast {
 
 /// A face of the complex as a ray meets it.
 struct Crossing {
@@ -73,4 +73,4 @@ class FaceWalk {
   std::vector<Side> sides_;            // parallel to complex.face_vertex
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::raycast

@@ -8,7 +8,7 @@
 
 #include "stages/raycast/cell_evidence.h"
 
-namespace roomcut {
+namespace roomcut::raycast {
 namespace {
 
 constexpr double kCommon = 0.4;      // [m] thickness of common walls and slabs
@@ -99,4 +99,4 @@ ImpliedFaces find_implied_faces(const CellComplex& complex, const FaceWalk& walk
   return implied;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::raycast

@@ -6,7 +6,7 @@
 #include "common/cells/cell_complex.h"
 #include "stages/raycast/face_walk.h"
 
-namespace roomcut {
+namespace roomcut::raycast {
 
 /// For each face, how certain it is to be the unseen side of a wall or slab, 0 … 1. What shows its back has a
 /// thickness: a surface must follow behind it, though no point lies there (an opposite room that was not
@@ -22,4 +22,4 @@ double thickness_weight(double distance_m);
 /// Looks from points of every face straight to both sides. In parallel; the same for any number of threads.
 ImpliedFaces find_implied_faces(const CellComplex& complex, const FaceWalk& walk);
 
-}  // namespace roomcut
+}  // namespace roomcut::raycast

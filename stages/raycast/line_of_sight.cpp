@@ -8,7 +8,7 @@
 #include <numbers>
 #include <optional>
 
-namespace roomcut {
+namespace roomcut::raycast {
 namespace {
 
 constexpr std::size_t kDirections = 8192;
@@ -106,4 +106,4 @@ std::vector<double> carve_lines_of_sight(const CellComplex& complex, const FaceW
   return unseen;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::raycast

@@ -6,7 +6,7 @@
 #include "common/cells/cell_complex.h"
 #include "stages/raycast/face_walk.h"
 
-namespace roomcut {
+namespace roomcut::raycast {
 
 /// The share of each cell that the scanners looked through, 0 … 1: 1 - prod over stations (1 - V_s / V),
 /// where V_s is the volume between the station and the surfaces that it saw. `stations` are scanner
@@ -18,4 +18,4 @@ namespace roomcut {
 std::vector<double> carve_lines_of_sight(const CellComplex& complex, const FaceWalk& walk,
                                          const std::vector<Vec3>& stations);
 
-}  // namespace roomcut
+}  // namespace roomcut::raycast

@@ -6,6 +6,7 @@
 namespace {
 
 using namespace roomcut;
+using namespace roomcut::raycast;
 
 ParameterTable parameters(RaycastParams& p) {
   return {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace roomcut {
+namespace roomcut::raycast {
 
 /// Parameters of raycast.
 struct RaycastParams {
@@ -12,4 +12,4 @@ struct RaycastParams {
   double surface_depth_m = 0.1;       ///< weight of a cell's own covered faces: volume per square metre [m]
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::raycast

@@ -12,7 +12,7 @@
 #include "stages/raycast/implied_faces.h"
 #include "stages/raycast/line_of_sight.h"
 
-namespace roomcut {
+namespace roomcut::raycast {
 namespace {
 
 double sigmoid(double x) {
@@ -98,4 +98,4 @@ DataTerms cast_rays(const CellComplex& complex, const FaceWeights& weights, cons
   return terms;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::raycast

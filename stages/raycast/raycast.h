@@ -5,7 +5,7 @@
 #include "stages/raycast/cell_evidence.h"
 #include "stages/raycast/params.h"
 
-namespace roomcut {
+namespace roomcut::raycast {
 
 /// Log-odds of a cell being empty: the weighted sum of all measures (README.md, Weights).
 double empty_log_odds(const CellEvidence& evidence);
@@ -14,4 +14,4 @@ double empty_log_odds(const CellEvidence& evidence);
 /// to `complex`.
 DataTerms cast_rays(const CellComplex& complex, const FaceWeights& weights, const RaycastParams& params);
 
-}  // namespace roomcut
+}  // namespace roomcut::raycast

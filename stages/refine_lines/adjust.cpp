@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 namespace {
 
@@ -145,4 +145,4 @@ bool adjust(Adjustment& adjustment) {
   return true;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

@@ -6,7 +6,7 @@
 #include "stages/refine_lines/angle_classes.h"
 #include "stages/refine_lines/line_fit.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 /// All lines together, for Ceres.
 struct Adjustment {
@@ -22,4 +22,4 @@ struct Adjustment {
 /// they were otherwise.
 bool adjust(Adjustment& adjustment);
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

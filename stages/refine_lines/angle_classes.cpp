@@ -6,7 +6,7 @@
 #include <numbers>
 #include <numeric>
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 namespace {
 
@@ -82,4 +82,4 @@ AngleClasses find_angle_classes(const std::vector<Direction>& directions) {
   return classes;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 /// A line's direction with its standard deviation, as fitted alone.
 struct Direction {
@@ -28,4 +28,4 @@ AngleClasses find_angle_classes(const std::vector<Direction>& directions);
 /// theta - angle, to the nearest multiple of 90 degrees, in (-pi/4, pi/4].
 double off_class(double theta, double angle);
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

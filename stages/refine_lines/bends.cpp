@@ -8,7 +8,7 @@
 #include <numbers>
 #include <tuple>
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 namespace {
 
@@ -205,4 +205,4 @@ std::vector<Bend> find_bends(const std::vector<FittedLine>& lines, const std::ve
   return bends;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

@@ -7,7 +7,7 @@
 #include "stages/refine_lines/line_faces.h"
 #include "stages/refine_lines/line_fit.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 /// A fitted line with what was observed of the surface that it carries in the first cut.
 struct FittedLine {
@@ -31,4 +31,4 @@ struct Bend {
 /// parent. Deterministic.
 std::vector<Bend> find_bends(const std::vector<FittedLine>& lines, const std::vector<double>& layer_height);
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

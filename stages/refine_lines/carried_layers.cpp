@@ -14,7 +14,7 @@
 
 #include "common/cells/interfaces.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 namespace {
 
 constexpr float kSeen = 0.3F;         // coverage of a wall face: more than stray points and rims
@@ -225,4 +225,4 @@ void restrict_to_carried_layers(const CellComplex& complex, const std::set<std::
   }
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

@@ -10,7 +10,7 @@
 #include "common/cells/cell_complex.h"
 #include "common/wall_lines/wall_line.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 /// A stretch of a line that carries a wall of its own in one layer.
 struct CarriedRun {
@@ -45,4 +45,4 @@ CarriedRuns find_carried_runs(const CellComplex& complex, const FaceWeights& wei
 void restrict_to_carried_layers(const CellComplex& complex, const std::set<std::string>& one_sided,
                                 CarriedRuns& carried, WallLines& lines);
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

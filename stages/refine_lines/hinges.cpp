@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 namespace {
 
 constexpr double kDeg = std::numbers::pi / 180;
@@ -94,4 +94,4 @@ std::optional<Hinge> find_hinge(const FittedLine& fitted) {
   return best;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

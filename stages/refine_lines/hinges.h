@@ -6,7 +6,7 @@
 
 #include "stages/refine_lines/bends.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 /// The bend of a wall that detection took for one straight line.
 struct Hinge {
@@ -21,4 +21,4 @@ struct Hinge {
 /// cm (what stands beside a wall, a frame or a curtain, does not). Null for a straight wall. Deterministic.
 std::optional<Hinge> find_hinge(const FittedLine& fitted);
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 namespace {
 
@@ -120,4 +120,4 @@ std::vector<LineFaces> find_line_faces(const CellComplex& complex, const std::ve
   return result;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

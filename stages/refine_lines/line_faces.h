@@ -7,7 +7,7 @@
 #include "common/cells/cell_complex.h"
 #include "stages/refine_lines/carried_layers.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 /// Where one line carries the model's surface: its wall faces between an empty and a solid cell, rastered
 /// along the line.
@@ -34,4 +34,4 @@ LineFaces slice_bins(const LineFaces& faces, std::size_t first, std::size_t end,
 std::vector<LineFaces> find_line_faces(const CellComplex& complex, const std::vector<std::uint8_t>& label,
                                        double bin_m, const CarriedRuns& carried = {});
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

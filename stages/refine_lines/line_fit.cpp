@@ -7,7 +7,7 @@
 #include <limits>
 #include <map>
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 namespace {
 
@@ -263,4 +263,4 @@ PoseCovariance pose_covariance(const LineProblem& problem, const Pose& pose, dou
   return {covariance(0, 0), covariance(0, 1), covariance(1, 1)};
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

@@ -6,7 +6,7 @@
 #include "stages/refine_lines/line_residual.h"
 #include "stages/refine_lines/observe.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 /// Cut-off of Tukey's loss in standard deviations: 95 % efficient on normal noise, and what lies beyond has
 /// no pull at all. Single fits and Ceres use it (other losses: EXPERIMENTS.md).
@@ -55,4 +55,4 @@ LineFit fit_line(LineProblem& problem);
 /// prior on the turn.
 PoseCovariance pose_covariance(const LineProblem& problem, const Pose& pose, double turn_sigma_rad = 0);
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 namespace {
 
@@ -73,4 +73,4 @@ WallLine refined(const LineItem& item) {
   return wall;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

@@ -7,7 +7,7 @@
 #include "stages/refine_lines/line_faces.h"
 #include "stages/refine_lines/line_fit.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 /// A surviving line on its way through the refinement.
 struct LineItem {
@@ -28,4 +28,4 @@ struct LineItem {
 /// support, rms and sigmas. A constant line comes back unchanged.
 WallLine refined(const LineItem& item);
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

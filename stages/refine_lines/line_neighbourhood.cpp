@@ -5,7 +5,7 @@
 #include <cmath>
 #include <iterator>
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 namespace {
 
@@ -54,4 +54,4 @@ LineNeighbourhood::LineNeighbourhood(const CloudTile& tile, const std::vector<Ne
   }
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

@@ -8,7 +8,7 @@
 #include "common/cloud/cloud.h"
 #include "stages/refine_lines/line_faces.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 /// Where the observations of one line are collected.
 struct LineTrack {
@@ -50,4 +50,4 @@ class LineNeighbourhood {
   std::vector<std::size_t> end_;  ///< of each block's in near_
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

@@ -5,7 +5,7 @@
 
 #include "common/geometry/line2.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 /// A line that may turn by `turn` [rad] about a fixed point `centre` and shift by `shift` [m] along its
 /// turned normal: n(theta0 + turn)·(p - centre) = shift. About the centroid of its observations the two are
@@ -43,4 +43,4 @@ inline Line2 posed(const Line2& line, const Vec2& centre, const Pose& pose) {
   return normalised(theta, std::cos(theta) * centre.x() + std::sin(theta) * centre.y() + pose.shift);
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

@@ -11,6 +11,7 @@
 namespace {
 
 using namespace roomcut;
+using namespace roomcut::refine_lines;
 
 StageInfo info() {
   StageInfo stage;

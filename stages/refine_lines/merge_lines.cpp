@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 namespace {
 
@@ -103,4 +103,4 @@ std::vector<std::size_t> find_merges(const std::vector<MergeCandidate>& candidat
   return into;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

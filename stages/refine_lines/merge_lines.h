@@ -7,7 +7,7 @@
 #include "stages/refine_lines/line_faces.h"
 #include "stages/refine_lines/line_fit.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 /// A refined line as merging sees it.
 struct MergeCandidate {
@@ -28,4 +28,4 @@ struct MergeCandidate {
 std::vector<std::size_t> find_merges(const std::vector<MergeCandidate>& candidates, double distance_m,
                                      double angle_rad);
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

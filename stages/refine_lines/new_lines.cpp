@@ -14,7 +14,7 @@
 #include "stages/refine_lines/hinges.h"
 #include "stages/refine_lines/split_lines.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 namespace {
 
 std::vector<double> layer_heights(const CellComplex& complex) {
@@ -169,4 +169,4 @@ int add_bends(const CellComplex& complex, std::vector<LineItem>& items) {
   return static_cast<int>(added.size());
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

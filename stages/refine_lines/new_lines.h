@@ -8,7 +8,7 @@
 #include "stages/refine_lines/line_item.h"
 #include "stages/refine_lines/one_sided.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 // Lines that refinement adds: all give them the id of the line that they come from and a number ("w0007.1"),
 // and return how many there are.
@@ -26,4 +26,4 @@ int split_at_hinges(const CellComplex& complex, std::vector<LineItem>& items);
 /// Adds the walls that bend off the fitted lines (find_bends()).
 int add_bends(const CellComplex& complex, std::vector<LineItem>& items);
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

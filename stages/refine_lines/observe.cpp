@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 namespace {
 
@@ -181,4 +181,4 @@ std::vector<Observation> LineObserver::observations(std::size_t i) const {
   return result;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

@@ -11,7 +11,7 @@
 #include "stages/refine_lines/line_faces.h"
 #include "stages/refine_lines/line_neighbourhood.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 /// Where a wall's surface lies in one patch: a piece of a line, a piece of height.
 struct Observation {
@@ -93,4 +93,4 @@ class LineObserver {
   std::atomic<std::uint64_t> points_{0};
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

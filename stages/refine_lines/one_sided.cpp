@@ -10,7 +10,7 @@
 
 #include "common/cells/plan_walk.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 namespace {
 
 constexpr float kSeen = 0.4F;       // coverage with which a wall face stands for a wall
@@ -203,4 +203,4 @@ int add_unseen_faces(const std::vector<OneSidedWall>& walls, double thickness_m,
   return count;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

@@ -8,7 +8,7 @@
 #include "common/cells/cell_complex.h"
 #include "common/wall_lines/wall_line.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 /// A stretch of a wall line that was plainly seen from one side although both sides are empty in the first
 /// cut: a wall whose other face was not seen (a room not entered, furniture all along it), so that no line
@@ -38,4 +38,4 @@ double usual_thickness(const CellComplex& complex, const std::vector<std::uint8_
 /// … 60 cm behind in all those layers. Returns how many were added; `lines` stays sorted by id.
 int add_unseen_faces(const std::vector<OneSidedWall>& walls, double thickness_m, WallLines& lines);
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

@@ -7,7 +7,7 @@
 
 #include "common/params/params.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 struct RefineLinesParams {
   bool enabled = true;
@@ -48,4 +48,4 @@ inline ParameterTable refine_lines_parameters(RefineLinesParams& p) {
   };
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

@@ -17,7 +17,7 @@
 #include "stages/refine_lines/new_lines.h"
 #include "stages/refine_lines/observe.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 namespace {
 
@@ -260,4 +260,4 @@ Refinement LineRefiner::finish() {
   return s.result;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

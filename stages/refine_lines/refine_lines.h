@@ -13,7 +13,7 @@
 #include "stages/refine_lines/one_sided.h"
 #include "stages/refine_lines/params.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 struct Refinement {
   WallLines lines;
@@ -57,4 +57,4 @@ class LineRefiner {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

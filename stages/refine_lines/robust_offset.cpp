@@ -5,7 +5,7 @@
 
 #include "stages/refine_lines/observe.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 namespace {
 
@@ -116,4 +116,4 @@ RobustOffset robust_offset(std::span<const std::uint64_t> histogram, double half
   return result;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 namespace {
 
@@ -275,4 +275,4 @@ double steps_to(const LinePart& part, const OneSidedWall& wall) {
   return nearest;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

@@ -8,7 +8,7 @@
 #include "stages/refine_lines/line_fit.h"
 #include "stages/refine_lines/one_sided.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 
 /// A part of a line whose walls lie in one plane.
 struct LinePart {
@@ -35,4 +35,4 @@ std::optional<std::vector<int>> levels_of(const LinePart& part, const std::optio
 /// belongs to the part to which it is nearest.
 double steps_to(const LinePart& part, const OneSidedWall& wall);
 
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

@@ -12,7 +12,7 @@
 
 #include "stages/slice/cell_table.h"
 
-namespace roomcut {
+namespace roomcut::slice {
 
 /// Adds up the entries of equal cells, which must be neighbours.
 template <class Sum>
@@ -109,4 +109,4 @@ class CellParts {
   std::map<std::size_t, Tile> tiles_;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::slice

@@ -9,7 +9,7 @@
 
 #include "common/random/counter_random.h"
 
-namespace roomcut {
+namespace roomcut::slice {
 
 /// Cell of a sparse 3D raster: plan indices and a third one, a height bin or a wall slice.
 struct CellKey {
@@ -88,4 +88,4 @@ class CellTable {
   std::size_t last_ = 0;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::slice

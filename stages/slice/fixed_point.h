@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace roomcut {
+namespace roomcut::slice {
 
 /// floor() for |x| < 2^31, several times faster than the library call of plain x86-64.
 inline std::int32_t floor_to_int(double x) {
@@ -17,4 +17,4 @@ inline std::int64_t to_units(double value, double unit) {
   return static_cast<std::int64_t>(value * (1 / unit) + kHalf);
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::slice

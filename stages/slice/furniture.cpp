@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <tuple>
 
-namespace roomcut {
+namespace roomcut::slice {
 
 namespace {
 
@@ -99,4 +99,4 @@ bool is_furniture(const SurfaceComponent& surface, const Level& floor, const Cel
   return (small || width < kWidest_m) && share(open, border) >= kOpen;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::slice

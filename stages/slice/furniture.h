@@ -4,7 +4,7 @@
 #include "stages/slice/surface_graph.h"
 #include "stages/slice/survey.h"
 
-namespace roomcut {
+namespace roomcut::slice {
 
 /// Whether a surface 0.25 … 1.3 m above a floor is a table, a bed or a counter rather than a floor of its
 /// own: the lower level's floor is seen under a quarter of it; or that floor goes on beside 40 % of its
@@ -14,4 +14,4 @@ namespace roomcut {
 bool is_furniture(const SurfaceComponent& surface, const Level& floor, const CellIndex& all,
                   const HeightSurvey& survey);
 
-}  // namespace roomcut
+}  // namespace roomcut::slice

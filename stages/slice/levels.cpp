@@ -11,7 +11,7 @@
 #include "stages/slice/furniture.h"
 #include "stages/slice/plan_mask.h"
 
-namespace roomcut {
+namespace roomcut::slice {
 namespace {
 
 constexpr double kStep = 0.0025;  // m; grid on which the density is evaluated
@@ -374,4 +374,4 @@ void add_steps(std::vector<Level>& levels, const HeightSurvey& survey, const std
   std::sort(levels.begin(), levels.end(), [](const Level& a, const Level& b) { return a.z < b.z; });
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::slice

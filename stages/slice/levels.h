@@ -6,7 +6,7 @@
 #include "common/slices/slices.h"
 #include "stages/slice/surface_graph.h"
 
-namespace roomcut {
+namespace roomcut::slice {
 
 /// How levels are told apart; slice.h derives it from noise and density.
 struct LevelRules {
@@ -48,4 +48,4 @@ void add_caps(std::vector<Level>& levels, const HeightSurvey& survey, const std:
 void add_steps(std::vector<Level>& levels, const HeightSurvey& survey, const std::vector<SurfaceCell>& cells,
                double step_m);
 
-}  // namespace roomcut
+}  // namespace roomcut::slice

@@ -8,6 +8,7 @@
 namespace {
 
 using namespace roomcut;
+using namespace roomcut::slice;
 
 ParameterTable parameters(SliceParams& p) {
   return {

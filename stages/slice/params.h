@@ -3,7 +3,7 @@
 
 #include <optional>
 
-namespace roomcut {
+namespace roomcut::slice {
 
 /// Parameters of `slice`; an empty optional is derived from noise and density (slice.h: SliceChoices says
 /// what and why).
@@ -18,4 +18,4 @@ struct SliceParams {
   double evidence_share = 0.25;            ///< that top part, as a share of the slice's height
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::slice

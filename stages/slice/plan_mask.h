@@ -8,7 +8,7 @@
 #include "stages/slice/fixed_point.h"
 #include "stages/slice/surfaces.h"
 
-namespace roomcut {
+namespace roomcut::slice {
 
 /// A set of plan cells of kUprightPlan, as a bitmap over their box.
 class PlanMask {
@@ -51,4 +51,4 @@ class PlanMask {
   std::vector<std::uint8_t> bits_;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::slice

@@ -13,7 +13,7 @@
 #include "stages/slice/survey.h"
 #include "stages/slice/wall_slices.h"
 
-namespace roomcut {
+namespace roomcut::slice {
 namespace {
 
 constexpr double kHistogramBin = 0.005;  // m; below any useful bandwidth
@@ -129,4 +129,4 @@ SliceResult slice_cloud(const CloudHeader& header, const TileSource& tiles, cons
   return result;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::slice

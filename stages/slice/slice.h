@@ -8,7 +8,7 @@
 #include "stages/slice/params.h"
 #include "stages/slice/tile_source.h"
 
-namespace roomcut {
+namespace roomcut::slice {
 
 /// A value that was derived from the data, by the parameter's formula.
 struct SliceChoice {
@@ -28,4 +28,4 @@ struct SliceResult {
 /// of threads. Throws StageError: kNoLevels, kNoVertical, with what was seen.
 SliceResult slice_cloud(const CloudHeader& header, const TileSource& tiles, const SliceParams& params);
 
-}  // namespace roomcut
+}  // namespace roomcut::slice

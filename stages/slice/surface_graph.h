@@ -9,7 +9,7 @@
 
 #include "stages/slice/surfaces.h"
 
-namespace roomcut {
+namespace roomcut::slice {
 
 /// Disjoint sets with the smallest member as root.
 class DisjointSets {
@@ -120,4 +120,4 @@ DisjointSets connect_cells(const std::vector<SurfaceCell>& cells, double raster_
   return sets;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::slice

@@ -10,7 +10,7 @@
 #include "stages/slice/fixed_point.h"
 #include "stages/slice/surface_graph.h"
 
-namespace roomcut {
+namespace roomcut::slice {
 namespace {
 
 constexpr double kBlock = 1.0;           // m; edge of the blocks in which drift is measured
@@ -187,4 +187,4 @@ std::vector<SurfaceComponent> components(const std::vector<SurfaceCell>& cells, 
   return found;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::slice

@@ -7,7 +7,7 @@
 
 #include "stages/slice/survey.h"
 
-namespace roomcut {
+namespace roomcut::slice {
 
 /// One surface in one plan cell: neighbouring patches of a column joined.
 struct SurfaceCell {
@@ -39,4 +39,4 @@ struct SurfaceComponent {
 std::vector<SurfaceComponent> components(const std::vector<SurfaceCell>& cells, double lo, double hi,
                                          double raster_m);
 
-}  // namespace roomcut
+}  // namespace roomcut::slice

@@ -9,7 +9,7 @@
 #include "stages/slice/cell_parts.h"
 #include "stages/slice/fixed_point.h"
 
-namespace roomcut {
+namespace roomcut::slice {
 namespace {
 
 constexpr double kAreaUnit = 0x1.0p-30;    // m^2
@@ -130,4 +130,4 @@ HeightSurvey survey_heights(const CloudHeader& header, const TileSource& tiles, 
   return survey;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::slice

@@ -7,7 +7,7 @@
 #include "common/slices/slices.h"
 #include "stages/slice/tile_source.h"
 
-namespace roomcut {
+namespace roomcut::slice {
 
 /// Horizontal points of one plan cell and height bin, as sums.
 struct SurfacePatch {
@@ -41,4 +41,4 @@ struct HeightSurvey {
 HeightSurvey survey_heights(const CloudHeader& header, const TileSource& tiles, double raster_m,
                             double bin_m);
 
-}  // namespace roomcut
+}  // namespace roomcut::slice

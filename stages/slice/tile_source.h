@@ -6,7 +6,7 @@
 
 #include "common/cloud/cloud.h"
 
-namespace roomcut {
+namespace roomcut::slice {
 
 using TileVisitor = std::function<void(std::size_t, const CloudTile&)>;
 
@@ -15,4 +15,4 @@ using TileVisitor = std::function<void(std::size_t, const CloudTile&)>;
 /// CloudReader::for_each_tile is one; tests make their own.
 using TileSource = std::function<void(const TileVisitor&)>;
 
-}  // namespace roomcut
+}  // namespace roomcut::slice

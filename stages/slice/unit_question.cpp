@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
-namespace roomcut {
+namespace roomcut::slice {
 
 namespace {
 
@@ -46,4 +46,4 @@ std::string unit_question(const Slices& slices) {
          " high, in feet " + metres(*low * kFoot_m) + "; then give --unit ft to ingest (with make: UNIT=ft)";
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::slice

@@ -12,7 +12,7 @@
 #include "stages/slice/cell_parts.h"
 #include "stages/slice/fixed_point.h"
 
-namespace roomcut {
+namespace roomcut::slice {
 namespace {
 
 constexpr double kBinHeight = 0.12;           // m
@@ -178,4 +178,4 @@ std::vector<OccupancyGrid> occupy_wall_slices(const TileSource& tiles,
   return grids;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::slice

@@ -6,7 +6,7 @@
 #include "common/slices/slices.h"
 #include "stages/slice/tile_source.h"
 
-namespace roomcut {
+namespace roomcut::slice {
 
 /// Where wall evidence is looked for between two neighbouring levels.
 struct EvidenceRange {
@@ -33,4 +33,4 @@ std::vector<EvidenceRange> evidence_ranges(const std::vector<Level>& levels, dou
 std::vector<OccupancyGrid> occupy_wall_slices(const TileSource& tiles,
                                               const std::vector<EvidenceRange>& ranges, double tau_m);
 
-}  // namespace roomcut
+}  // namespace roomcut::slice

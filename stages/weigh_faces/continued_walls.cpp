@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 namespace {
 
 constexpr float kCovered = 0.5F;             // of the neighbour, to be a wall
@@ -73,4 +73,4 @@ void continue_walls(const CellComplex& complex, FaceWeights& weights) {
   }
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

@@ -3,7 +3,7 @@
 
 #include "common/cells/cell_complex.h"
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 
 /// Walls are upright: a wall face too small to have been hit by more than a few points is covered as the one
 /// above or below it in the same wall is, with the weight of three points against the number expected on its
@@ -12,4 +12,4 @@ namespace roomcut {
 /// side: there the room ends. Needs all of the wall faces' and the levels' weights. Deterministic.
 void continue_walls(const CellComplex& complex, FaceWeights& weights);
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

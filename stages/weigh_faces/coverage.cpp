@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 namespace {
 
 constexpr double kLargestWeight = 25;
@@ -70,4 +70,4 @@ std::vector<float> local_density(const std::vector<float>& points, const std::ve
   return density;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

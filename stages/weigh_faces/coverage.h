@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 
 /// Sums over rectangles of a grid in O(1). Values are given row by row.
 class AreaTable {
@@ -58,4 +58,4 @@ double window_density(const AreaTable& counts, const AreaTable& areas, int x, in
 std::vector<float> local_density(const std::vector<float>& points, const std::vector<float>& areas,
                                  const AreaTable& area_table, int nx, int ny);
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

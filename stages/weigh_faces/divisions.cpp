@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 
 Divisions::Divisions(const std::vector<double>& breaks, double bin, double margin)
     : breaks_(breaks), step_(bin / 2), per_step_(1 / step_) {
@@ -54,4 +54,4 @@ Divisions::Range Divisions::interval_of(double x) const {
   return {first_[i], first_[i + 1]};
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

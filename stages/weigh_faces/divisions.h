@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 
 /// An axis cut at given breaks (the ends of edges, the levels), every interval between two breaks divided
 /// into equal bins of about the wanted length. Bins belong to one interval only, and a margin at both ends of
@@ -37,4 +37,4 @@ class Divisions {
   std::vector<std::int32_t> hint_;  // per step: the first bin that ends beyond its start
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 namespace {
 
 using Polygon = std::vector<Vec2>;
@@ -158,4 +158,4 @@ std::int64_t FaceRaster::find(const Vec2& p) const {
   return -1;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 
 LevelRasters::LevelRasters(const CellComplex& complex, const Tolerances& tolerances)
     : complex_(complex),
@@ -205,4 +205,4 @@ void LevelRasters::weigh(FaceWeights& weights) const {
   });
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

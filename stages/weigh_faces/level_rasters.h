@@ -9,7 +9,7 @@
 #include "stages/weigh_faces/sparse_counts.h"
 #include "stages/weigh_faces/tolerances.h"
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 
 /// The evidence on level faces: per level the points on it by piece of face, and per bin whether there are
 /// points a hand above and below it. Filled by any number of threads; memory follows the touched surface.
@@ -61,4 +61,4 @@ class LevelRasters {
   SparseCounts on_, sloped_, slope_, over_, under_;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 namespace {
 
 constexpr float kCovered = 0.1F;  // coverage with which a face belongs to a surface
@@ -88,4 +88,4 @@ std::vector<double> floor_probability(const CellComplex& complex, const FaceWeig
   return probability;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

@@ -6,7 +6,7 @@
 
 #include "common/cells/cell_complex.h"
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 
 /// Evidence for the empty side of a level face, from the points beside it, in bins.
 struct LevelSides {
@@ -30,4 +30,4 @@ struct LevelSides {
 std::vector<double> floor_probability(const CellComplex& complex, const FaceWeights& weights,
                                       std::size_t level, const std::vector<LevelSides>& sides);
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

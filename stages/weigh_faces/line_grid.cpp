@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 namespace {
 
 constexpr double kBin = 0.25;  // about the reach: few lines per bin, few bins per edge
@@ -64,4 +64,4 @@ LineGrid::LineGrid(const CellComplex& complex, double reach, double azimuth) : g
   }
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

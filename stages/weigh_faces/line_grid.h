@@ -9,7 +9,7 @@
 #include "common/cloud/cloud.h"
 #include "stages/weigh_faces/plan_grid.h"
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 
 /// A wall line with its normal worked out.
 struct PlanLine {
@@ -49,4 +49,4 @@ class LineGrid {
   std::vector<PlanLine> plan_lines_;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

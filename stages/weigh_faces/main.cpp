@@ -8,6 +8,7 @@
 namespace {
 
 using namespace roomcut;
+using namespace roomcut::weigh_faces;
 
 ParameterTable parameters(WeighFacesParams& p) {
   return {

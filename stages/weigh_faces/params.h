@@ -4,7 +4,7 @@
 #include <numbers>
 #include <optional>
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 
 /// Parameters of weigh_faces. Empty = auto: derived from the cloud's noise and density (tolerances.h).
 struct WeighFacesParams {
@@ -17,4 +17,4 @@ struct WeighFacesParams {
       0.25;  ///< a wall also counts by its top share alone, free of furniture; 0 = whole face only
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

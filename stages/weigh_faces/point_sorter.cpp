@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 
 PointSorter::NearLevel PointSorter::nearest_level(double z) const {
   const std::vector<double>& levels = complex_.levels;
@@ -177,4 +177,4 @@ void PointSorter::add_sloped(std::size_t piece, const NearLevel& near, std::size
   }
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

@@ -11,7 +11,7 @@
 #include "stages/weigh_faces/line_grid.h"
 #include "stages/weigh_faces/wall_rasters.h"
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 
 /// Assigns each point to one wall line, one level, or the space beside them. Used by one thread at a time;
 /// the counters that it fills are shared.
@@ -60,4 +60,4 @@ class PointSorter {
   std::vector<Candidate> candidates_;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

@@ -7,7 +7,7 @@
 
 #include "common/cells/plan_walk.h"
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 namespace {
 
 constexpr double kDeepest = 0.6;    // [m] thickness of a facade
@@ -74,4 +74,4 @@ void discount_seen_through(const CellComplex& complex, FaceWeights& weights) {
   }
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

@@ -3,7 +3,7 @@
 
 #include "common/cells/cell_complex.h"
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 
 /// Takes back the coverage of walls that were seen through the openings of another wall. A surface close
 /// behind another one that looks the same way, on which the points lie an order of magnitude sparser, is the
@@ -12,4 +12,4 @@ namespace roomcut {
 /// wall_right. Needs all of them; deterministic.
 void discount_seen_through(const CellComplex& complex, FaceWeights& weights);
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

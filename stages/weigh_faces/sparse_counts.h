@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <memory>
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 
 /// A long array of counters of which only the touched blocks take memory. add() may be called by any number
 /// of threads; integer sums make the result independent of their order.
@@ -71,4 +71,4 @@ class SparseCounts {
   std::unique_ptr<std::atomic<std::atomic<std::uint32_t>*>[]> table_;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

@@ -6,7 +6,7 @@
 
 #include "common/geometry/preferred_number.h"
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 
 Tolerances resolve_tolerances(const WeighFacesParams& params, const CloudHeader& cloud) {
   const double noise = std::clamp(cloud.noise_m, 0.001, 0.05);
@@ -32,4 +32,4 @@ Tolerances resolve_tolerances(const WeighFacesParams& params, const CloudHeader&
   return t;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

@@ -4,7 +4,7 @@
 #include "common/cloud/cloud.h"
 #include "stages/weigh_faces/params.h"
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 
 /// The distances of this stage, in metres, derived from noise and density (stages/weigh_faces/README.md).
 struct Tolerances {
@@ -25,4 +25,4 @@ struct Tolerances {
 
 Tolerances resolve_tolerances(const WeighFacesParams& params, const CloudHeader& cloud);
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

@@ -9,7 +9,7 @@
 
 #include "stages/weigh_faces/wall_sides.h"
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 namespace {
 
 constexpr int kBlockEdge = 32;  // 32 × 32 bins are one block of SparseCounts
@@ -195,4 +195,4 @@ void WallRasters::weigh_sides(FaceWeights& weights) const {
   });
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

@@ -9,7 +9,7 @@
 #include "stages/weigh_faces/sparse_counts.h"
 #include "stages/weigh_faces/tolerances.h"
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 
 /// The evidence on upright faces: for every line a raster (t along the line, z) of the points on it, and per
 /// column of it whether floor or ceiling reaches it from either side. The raster is divided at the ends of
@@ -58,4 +58,4 @@ class WallRasters {
   SparseCounts on_, plus_, minus_;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

@@ -7,7 +7,7 @@
 
 #include "common/cells/plan_walk.h"
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 namespace {
 
 constexpr double kSeen = 0.15;      // coverage of a floor or ceiling on either side: enough to ask
@@ -107,4 +107,4 @@ double left_probability(const CellComplex& complex, const FaceWeights& weights, 
   return 1 / (1 + std::exp(-score));
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

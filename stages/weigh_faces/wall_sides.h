@@ -7,7 +7,7 @@
 
 #include "common/cells/cell_complex.h"
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 
 /// Shares of a wall face's length along which floor and ceiling reach it from its left and its right, 0 … 1.
 struct StripShares {
@@ -42,4 +42,4 @@ double left_probability(const CellComplex& complex, const FaceWeights& weights, 
                         std::size_t layer, const StripShares& strips, const FacesBeside& left,
                         const FacesBeside& right);
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

@@ -8,7 +8,7 @@
 #include "stages/weigh_faces/seen_through.h"
 #include "stages/weigh_faces/wall_rasters.h"
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 
 struct FaceWeigher::State {
   State(const CellComplex& c, const CloudHeader& cloud, const WeighFacesParams& params)
@@ -60,4 +60,4 @@ FaceWeights FaceWeigher::weigh() const {
   return weights;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

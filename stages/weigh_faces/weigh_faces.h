@@ -8,7 +8,7 @@
 #include "stages/weigh_faces/params.h"
 #include "stages/weigh_faces/tolerances.h"
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 
 /// Weighs the faces of a cell complex by one pass over the cloud (paper §2, regularisation term; see
 /// README.md). Memory grows with the surface, not with the points. Same points, same result, in any order and
@@ -32,4 +32,4 @@ class FaceWeigher {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

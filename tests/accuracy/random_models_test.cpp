@@ -17,9 +17,9 @@
 #include "stages/extract/extract.h"
 #include "stages/graphcut/graphcut.h"
 #include "stages/partition/partition.h"
-#include "stages/synthesize/building.h"
-#include "stages/synthesize/families.h"
-#include "stages/synthesize/plan.h"
+#include "stages/tools/synthesize/building.h"
+#include "stages/tools/synthesize/families.h"
+#include "stages/tools/synthesize/plan.h"
 #include "tests/unit/graphcut/random_cells.h"
 
 namespace roomcut {

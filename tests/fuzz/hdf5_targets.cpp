@@ -41,7 +41,7 @@ void slices(std::string_view edits) {
   detect_lines(read_slices(file.path()), coarse);
 }
 
-/// The datasets that the report reads (stages/report/page_plan_blocks.cpp).
+/// The datasets that the report reads (stages/tools/report/page_plan_blocks.cpp).
 void hough(std::string_view edits) {
   const PrivateFile file(edited_artefact(kHough, edits), ".h5");
   const H5Reader reader(file.path(), artefacts::kHough);

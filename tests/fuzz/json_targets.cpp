@@ -7,9 +7,9 @@
 #include "common/wall_lines/compare_lines.h"
 #include "common/wall_lines/wall_lines_io.h"
 #include "stages/accept_lines/accept_lines.h"
-#include "stages/compare/comparison_json.h"
-#include "stages/compare/read_run.h"
-#include "stages/evaluate/evaluate_io.h"
+#include "stages/tools/compare/comparison_json.h"
+#include "stages/tools/compare/read_run.h"
+#include "stages/tools/evaluate/evaluate_io.h"
 #include "tests/fuzz/target.h"
 
 namespace roomcut::fuzz {

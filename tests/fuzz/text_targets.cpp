@@ -6,7 +6,7 @@
 #include "common/mesh/mesh_io.h"
 #include "common/params/params.h"
 #include "common/rerun/stamp.h"
-#include "stages/synthesize/scene_json.h"
+#include "stages/tools/synthesize/scene_json.h"
 #include "tests/fuzz/target.h"
 
 namespace roomcut::fuzz {

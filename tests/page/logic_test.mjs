@@ -5,7 +5,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { pathToFileURL } from "node:url";
 
-const page = (file) => import(pathToFileURL(join(process.env.ROOMCUT_SOURCE, "stages/report/page/src", file)).href);
+const page = (file) => import(pathToFileURL(join(process.env.ROOMCUT_SOURCE, "stages/tools/report/page/src", file)).href);
 const { LineDocument, offsetBetween, shifted } = await page("edit/document.js");
 const { inLocal, inScan, ScanCoordinates } = await page("data/coordinates.js");
 const { fitOf, snapDirection, snapLength, snapOffset } = await page("edit/snap.js");

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace roomcut {
+namespace roomcut::accept_lines {
 namespace {
 
 WallLine make_line(const std::string& id, Vec2 a, Vec2 b) {
@@ -99,4 +99,4 @@ TEST(DescribeMovedBase, ListsAtMostTwentyLinesAndSaysHowManyMore) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::accept_lines

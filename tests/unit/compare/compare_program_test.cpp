@@ -10,7 +10,7 @@
 #include "common/artefact/json.h"
 #include "common/cloud/cloud_io.h"
 
-namespace roomcut {
+namespace roomcut::compare {
 namespace {
 
 namespace fs = std::filesystem;
@@ -80,4 +80,4 @@ TEST_F(CompareProgram, ASummaryWithOtherTypesIsAnErrorOfThatFile) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::compare

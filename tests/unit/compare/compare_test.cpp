@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stages/compare/compare.h"
+#include "stages/tools/compare/compare.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "common/geometry/scan_coordinates.h"
 #include "tests/unit/compare/square_run.h"
 
-namespace roomcut {
+namespace roomcut::compare {
 namespace {
 
 TEST(MatchLines, ids_and_the_order_of_ends_mean_nothing) {
@@ -114,4 +114,4 @@ TEST(CompareRuns, scans_with_different_origins_are_compared_by_their_coordinates
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::compare

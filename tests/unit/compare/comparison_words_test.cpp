@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stages/compare/comparison_words.h"
+#include "stages/tools/compare/comparison_words.h"
 
 #include <gtest/gtest.h>
 
-#include "stages/compare/storey_plans.h"
+#include "stages/tools/compare/storey_plans.h"
 #include "tests/unit/compare/square_run.h"
 
-namespace roomcut {
+namespace roomcut::compare {
 namespace {
 
 bool has(const std::string& text, const std::string& part) {
@@ -73,4 +73,4 @@ TEST(StoreyPlans, a_storey_that_only_one_run_has_is_drawn_alone) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::compare

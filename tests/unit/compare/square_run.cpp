@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/unit/compare/square_run.h"
 
-namespace roomcut {
+namespace roomcut::compare {
 
 WallLine wall(const std::string& id, const Vec2& a, const Vec2& b) {
   WallLine line;
@@ -50,4 +50,4 @@ RunFacts square_run(const std::string& name, double width) {
   return run;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::compare

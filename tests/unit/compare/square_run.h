@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "stages/compare/run_facts.h"
+#include "stages/tools/compare/run_facts.h"
 
-namespace roomcut {
+namespace roomcut::compare {
 
 /// A line of that id.
 WallLine wall(const std::string& id, const Vec2& a, const Vec2& b);
@@ -14,4 +14,4 @@ WallLine wall(const std::string& id, const Vec2& a, const Vec2& b);
 /// north, west), and a cell of solid around it up to the box (-1, -1) (9, 5).
 RunFacts square_run(const std::string& name, double width);
 
-}  // namespace roomcut
+}  // namespace roomcut::compare

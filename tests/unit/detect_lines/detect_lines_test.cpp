@@ -8,7 +8,7 @@
 #include "stages/slice/slice.h"
 #include "tests/unit/slice/synthetic_cloud.h"
 
-namespace roomcut {
+namespace roomcut::detect_lines {
 namespace {
 
 using testing::SyntheticCloud;
@@ -309,4 +309,4 @@ TEST(DetectLines, SlicesWithoutCellsAreErrorN03) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::detect_lines

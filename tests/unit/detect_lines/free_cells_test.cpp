@@ -9,7 +9,7 @@
 #include "common/random/counter_random.h"
 #include "tests/unit/detect_lines/cells_on_a_line.h"
 
-namespace roomcut {
+namespace roomcut::detect_lines {
 namespace {
 
 using testing::add_cells;
@@ -60,4 +60,4 @@ TEST(FreeCells, NoCellsAtAllAreNoneOnAnyLine) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::detect_lines

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <tuple>
 
-namespace roomcut {
+namespace roomcut::detect_lines {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
@@ -70,4 +70,4 @@ TEST(Hough, PointsOutsideTheRadiusDoNoHarm) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::detect_lines

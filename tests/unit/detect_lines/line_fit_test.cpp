@@ -5,7 +5,7 @@
 
 #include "tests/unit/detect_lines/cells_on_a_line.h"
 
-namespace roomcut {
+namespace roomcut::detect_lines {
 namespace {
 
 using testing::add_cells;
@@ -84,4 +84,4 @@ TEST(Quality, UncertaintyOfAnglesFallsWithLength) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::detect_lines

@@ -5,7 +5,7 @@
 
 #include "tests/unit/detect_lines/cells_on_a_line.h"
 
-namespace roomcut {
+namespace roomcut::detect_lines {
 namespace {
 
 using testing::add_cells;
@@ -80,4 +80,4 @@ TEST(MergeLines, LinesOnBothSidesOfAngleZeroAreRecognised) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::detect_lines

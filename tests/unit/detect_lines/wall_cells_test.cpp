@@ -8,7 +8,7 @@
 
 #include "common/random/counter_random.h"
 
-namespace roomcut {
+namespace roomcut::detect_lines {
 namespace {
 
 /// A slice of points as `slice` would hand it over; azimuths are unknown unless given.
@@ -100,4 +100,4 @@ TEST(ClassifyCells, EmptySlicesAreFine) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::detect_lines

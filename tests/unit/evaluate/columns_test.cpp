@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stages/evaluate/columns.h"
+#include "stages/tools/evaluate/columns.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/unit/mesh/shapes.h"
 
-namespace roomcut {
+namespace roomcut::evaluate {
 namespace {
 
 using test::append;
@@ -74,4 +74,4 @@ TEST(Columns, OverlapOfIntervalLists) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::evaluate

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stages/evaluate/comparable.h"
+#include "stages/tools/evaluate/comparable.h"
 
 #include <gtest/gtest.h>
 
 #include "common/errors/codes.h"
 
-namespace roomcut {
+namespace roomcut::evaluate {
 namespace {
 
 const Bounds3 kModel{{0, 0, 0}, {10, 8, 2.7}};
@@ -51,4 +51,4 @@ TEST(Comparable, AnotherSizeOrPlaceIsRefused) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::evaluate

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stages/evaluate/distance_colours.h"
+#include "stages/tools/evaluate/distance_colours.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "tests/unit/mesh/shapes.h"
 
-namespace roomcut {
+namespace roomcut::evaluate {
 namespace {
 
 using test::box;
@@ -24,4 +24,4 @@ TEST(DistanceColours, TheCutUpModelIsTheSameSurfaceInSmallTriangles) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::evaluate

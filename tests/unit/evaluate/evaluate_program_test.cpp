@@ -16,7 +16,7 @@
 #include "tests/unit/cells/three_faces.h"
 #include "tests/unit/mesh/shapes.h"
 
-namespace roomcut {
+namespace roomcut::evaluate {
 namespace {
 
 namespace fs = std::filesystem;
@@ -218,4 +218,4 @@ TEST_F(EvaluateProgram, ASpacingThatAsksForTooManySamplesIsRefused) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::evaluate

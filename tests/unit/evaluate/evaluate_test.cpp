@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stages/evaluate/evaluate.h"
+#include "stages/tools/evaluate/evaluate.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -7,7 +7,7 @@
 #include "common/errors/error.h"
 #include "tests/unit/mesh/shapes.h"
 
-namespace roomcut {
+namespace roomcut::evaluate {
 namespace {
 
 using test::append;
@@ -98,4 +98,4 @@ TEST(Evaluate, OneThreadGivesTheSameNumbersAsMany) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::evaluate

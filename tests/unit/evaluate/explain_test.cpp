@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stages/evaluate/explain.h"
+#include "stages/tools/evaluate/explain.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <numbers>
 #include <numeric>
 
-#include "stages/evaluate/evaluate.h"
+#include "stages/tools/evaluate/evaluate.h"
 #include "tests/unit/mesh/shapes.h"
 
-namespace roomcut {
+namespace roomcut::evaluate {
 namespace {
 
 using test::append;
@@ -290,4 +290,4 @@ TEST(Explain, FollowsTheFrame) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::evaluate

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
-#include "stages/evaluate/evaluate.h"
+#include "stages/tools/evaluate/evaluate.h"
 #include "tests/unit/mesh/shapes.h"
 
-namespace roomcut {
+namespace roomcut::evaluate {
 namespace {
 
 using test::append;
@@ -106,4 +106,4 @@ TEST(Rooms, PrismsDescribeRoomsThatDoorwaysJoinToOneBody) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::evaluate

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stages/evaluate/samples.h"
+#include "stages/tools/evaluate/samples.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "common/mesh/mesh_tree.h"
 #include "tests/unit/mesh/shapes.h"
 
-namespace roomcut {
+namespace roomcut::evaluate {
 namespace {
 
 using test::box;
@@ -77,4 +77,4 @@ TEST(Samples, TheSpacingGrowsWithWhatTheBudgetAffords) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::evaluate

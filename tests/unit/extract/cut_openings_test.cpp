@@ -9,7 +9,7 @@
 #include "stages/extract/extract.h"
 #include "tests/unit/extract/grid_complex.h"
 
-namespace roomcut {
+namespace roomcut::extract {
 namespace {
 
 using test::grid_complex;
@@ -176,4 +176,4 @@ TEST(CutOpenings, WhateverIsGivenTheModelIsWatertight) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::extract

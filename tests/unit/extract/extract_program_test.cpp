@@ -16,7 +16,7 @@
 #include "common/mesh/mesh_io.h"
 #include "tests/unit/extract/grid_complex.h"
 
-namespace roomcut {
+namespace roomcut::extract {
 namespace {
 
 namespace fs = std::filesystem;
@@ -151,4 +151,4 @@ TEST_F(ExtractProgram, MissingLabelsAreA01) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::extract

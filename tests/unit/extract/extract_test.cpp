@@ -8,7 +8,7 @@
 #include "common/errors/error.h"
 #include "tests/unit/extract/grid_complex.h"
 
-namespace roomcut {
+namespace roomcut::extract {
 namespace {
 
 using test::grid_complex;
@@ -153,4 +153,4 @@ TEST(Extract, AllSolidIsAnErrorNotAnEmptyFile) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::extract

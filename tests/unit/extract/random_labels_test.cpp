@@ -9,7 +9,7 @@
 #include "stages/extract/extract.h"
 #include "tests/unit/extract/grid_complex.h"
 
-namespace roomcut {
+namespace roomcut::extract {
 namespace {
 
 // The cells around (vertex, level) as places on a circle of faces times two layers, -1 = outside.
@@ -116,4 +116,4 @@ TEST(Extract, TwoHundredRandomLabelingsAreClosedAndFreeOfIntersections) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::extract

@@ -6,7 +6,7 @@
 #include "stages/extract/rooms.h"
 #include "tests/unit/extract/grid_complex.h"
 
-namespace roomcut {
+namespace roomcut::extract {
 namespace {
 
 using test::grid_complex;
@@ -87,4 +87,4 @@ TEST(Storeys, RoomsAndStoreysAddUpToTheEmptyVolume) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::extract

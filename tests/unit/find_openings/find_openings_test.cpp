@@ -8,7 +8,7 @@
 
 #include "tests/unit/find_openings/made_wall.h"
 
-namespace roomcut {
+namespace roomcut::find_openings {
 namespace {
 
 using test::MadeWall;
@@ -221,4 +221,4 @@ TEST(JoinHeads, OnlyWhatNoiseExplainsBecomesOne) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::find_openings

@@ -11,7 +11,7 @@
 #include "common/errors/codes.h"
 #include "common/geometry/scan_coordinates.h"
 
-namespace roomcut {
+namespace roomcut::find_openings {
 namespace {
 
 namespace fs = std::filesystem;
@@ -132,4 +132,4 @@ TEST_F(OpeningsIo, OtherCellsAreA05AndDamageIsA02NamingTheFeature) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::find_openings

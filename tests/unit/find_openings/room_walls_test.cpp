@@ -5,7 +5,7 @@
 
 #include "tests/unit/find_openings/made_wall.h"
 
-namespace roomcut {
+namespace roomcut::find_openings {
 namespace {
 
 TEST(RoomWalls, OneWallBetweenTwoRoomsWithItsThicknessAndExtent) {
@@ -72,4 +72,4 @@ TEST(RoomWalls, GapsAreMarkedUpToTheirGreatestWidth) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::find_openings

@@ -5,7 +5,7 @@
 
 #include "tests/unit/graphcut/random_cells.h"
 
-namespace roomcut {
+namespace roomcut::graphcut {
 namespace {
 
 TEST(Energy, OfOneEmptyCubeIsItsDataTermAndItsSurface) {
@@ -48,4 +48,4 @@ TEST(Energy, CostOfAFlipIsTheDifferenceOfBothEnergiesExactly) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::graphcut

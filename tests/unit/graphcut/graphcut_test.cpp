@@ -11,7 +11,7 @@
 #include "stages/graphcut/max_flow.h"
 #include "tests/unit/graphcut/random_cells.h"
 
-namespace roomcut {
+namespace roomcut::graphcut {
 namespace {
 
 std::size_t middle_of(const CellComplex& complex) {
@@ -127,4 +127,4 @@ TEST(Graphcut, AnEmptyModelIsAnErrorThatNamesTheEvidence) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::graphcut

@@ -7,7 +7,7 @@
 #include "tests/unit/graphcut/manifold_by_mesh.h"
 #include "tests/unit/graphcut/random_cells.h"
 
-namespace roomcut {
+namespace roomcut::graphcut {
 namespace {
 
 TEST(LabelRepair, MakesAnyLabellingManifold) {
@@ -83,4 +83,4 @@ TEST(LabelRepair, OfAnOptimalCutNeverLowersTheEnergy) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::graphcut

@@ -5,7 +5,7 @@
 
 #include "common/cells/interfaces.h"
 
-namespace roomcut {
+namespace roomcut::graphcut {
 
 namespace {
 
@@ -77,4 +77,4 @@ std::set<std::pair<int, int>> non_manifold_vertices(const CellComplex& complex,
   return bad;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::graphcut

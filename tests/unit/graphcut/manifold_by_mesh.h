@@ -8,7 +8,7 @@
 
 #include "common/cells/cell_complex.h"
 
-namespace roomcut {
+namespace roomcut::graphcut {
 
 /// The oracle of the manifold tests: builds the surface as a polygon mesh and applies the textbook rule to
 /// it. Returns the (level, vertex) pairs where the faces of the surface are not one single fan or where an
@@ -16,4 +16,4 @@ namespace roomcut {
 std::set<std::pair<int, int>> non_manifold_vertices(const CellComplex& complex,
                                                     const std::vector<std::uint8_t>& label);
 
-}  // namespace roomcut
+}  // namespace roomcut::graphcut

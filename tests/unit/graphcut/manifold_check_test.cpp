@@ -6,7 +6,7 @@
 #include "tests/unit/graphcut/manifold_by_mesh.h"
 #include "tests/unit/graphcut/random_cells.h"
 
-namespace roomcut {
+namespace roomcut::graphcut {
 namespace {
 
 TEST(ManifoldCheck, AgreesWithTheMeshOfTheSurfaceAtEveryVertex) {
@@ -52,4 +52,4 @@ TEST(ManifoldCheck, FindsCellsThatTouchAtAnEdgeOrAVertexOnly) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::graphcut

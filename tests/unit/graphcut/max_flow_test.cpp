@@ -7,7 +7,7 @@
 
 #include "tests/unit/graphcut/random_cells.h"
 
-namespace roomcut {
+namespace roomcut::graphcut {
 namespace {
 
 struct Best {
@@ -70,4 +70,4 @@ TEST(MaxFlow, FlowIsTheEnergyOnLargerComplexesToo) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::graphcut

@@ -7,7 +7,7 @@
 #include "stages/partition/partition.h"
 #include "tests/unit/partition/random_lines.h"
 
-namespace roomcut {
+namespace roomcut::graphcut {
 
 CellComplex grid_complex(int nx, int ny, int nz) {
   WallLines lines;
@@ -96,4 +96,4 @@ std::vector<std::uint8_t> random_labels(const CellComplex& complex, std::uint64_
   return label;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::graphcut

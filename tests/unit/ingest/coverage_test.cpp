@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-namespace roomcut {
+namespace roomcut::ingest {
 namespace {
 
 VoxelMask bit(int dx, int dy, int dz) {
@@ -86,4 +86,4 @@ TEST(ChordOfSquare, agrees_with_sampling) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace roomcut {
+namespace roomcut::ingest {
 namespace {
 
 TEST(LogHistogram, has_the_median_within_a_bin) {
@@ -44,4 +44,4 @@ TEST(LogHistogram, takes_zero_and_huge_values_into_its_end_bins) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::ingest

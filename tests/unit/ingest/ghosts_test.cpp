@@ -8,7 +8,7 @@
 
 #include "stages/ingest/fixed_grid.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 namespace {
 
 CellCount cell(std::uint32_t ix, std::uint32_t iy, std::uint32_t layer, std::uint64_t points) {
@@ -136,4 +136,4 @@ TEST(WithoutGhosts, has_nothing_to_say_about_nothing) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::ingest

@@ -8,7 +8,7 @@
 
 #include "stages/ingest/plane.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 namespace {
 
 Eigen::Matrix3d matrix_of(const Spread& spread) {
@@ -97,4 +97,4 @@ TEST(Plane, of_a_line_or_a_place_has_no_second_direction) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::ingest

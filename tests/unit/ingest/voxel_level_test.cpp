@@ -10,7 +10,7 @@
 #include "stages/ingest/coverage.h"
 #include "stages/ingest/tile_grid.h"
 
-namespace roomcut {
+namespace roomcut::ingest {
 namespace {
 
 constexpr std::uint64_t kAll = ~std::uint64_t{0};
@@ -124,4 +124,4 @@ TEST_F(VoxelLevels, leave_out_the_layers_that_are_not_kept) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::ingest

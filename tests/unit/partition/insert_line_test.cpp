@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-namespace roomcut {
+namespace roomcut::partition {
 namespace {
 
 constexpr double kHalfTurn = 0.5 * std::numbers::pi;
@@ -57,4 +57,4 @@ TEST(InsertLine, ALineOutsideTheRectangleOrBesideItsSegmentCutsNothing) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::partition

@@ -8,7 +8,7 @@
 #include "common/errors/codes.h"
 #include "tests/unit/partition/random_lines.h"
 
-namespace roomcut {
+namespace roomcut::partition {
 namespace {
 
 const std::vector<double> kLevels{0, 2.5, 2.8, 5.3};
@@ -154,4 +154,4 @@ TEST(Partition, GivesUpWithoutLinesAndBeyondTheBudget) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::partition

@@ -11,7 +11,7 @@
 #include "tests/unit/partition/random_lines.h"
 #include "tests/unit/partition/short_lines.h"
 
-namespace roomcut {
+namespace roomcut::partition {
 namespace {
 
 const std::vector<double> kLevels{0, 2.5};
@@ -204,4 +204,4 @@ TEST(Prune, CellsGrowInProportionWhenABuildingStandsSeveralTimes) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::partition

@@ -7,7 +7,7 @@
 
 #include "common/random/counter_random.h"
 
-namespace roomcut {
+namespace roomcut::partition {
 
 Vec2 Motion::operator()(const Vec2& p) const {
   return Vec2(std::cos(angle) * p.x() - std::sin(angle) * p.y(),
@@ -83,4 +83,4 @@ WallLines random_lines(std::uint64_t seed, int count, bool nasty, const Motion& 
   return lines;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::partition

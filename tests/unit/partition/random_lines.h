@@ -5,7 +5,7 @@
 
 #include "common/wall_lines/wall_line.h"
 
-namespace roomcut {
+namespace roomcut::partition {
 
 /// Moves applied to a whole set of lines, for metamorphic tests.
 struct Motion {
@@ -19,4 +19,4 @@ struct Motion {
 /// point.
 WallLines random_lines(std::uint64_t seed, int count, bool nasty, const Motion& motion = {});
 
-}  // namespace roomcut
+}  // namespace roomcut::partition

@@ -8,7 +8,7 @@
 
 #include "common/random/counter_random.h"
 
-namespace roomcut {
+namespace roomcut::partition {
 
 namespace {
 
@@ -111,4 +111,4 @@ WallLines short_lines(ShortLines family, std::uint64_t seed, int count) {
   return lines;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::partition

@@ -6,7 +6,7 @@
 
 #include "common/wall_lines/wall_line.h"
 
-namespace roomcut {
+namespace roomcut::partition {
 
 /// How the lines of short_lines() lie to each other.
 enum class ShortLines {
@@ -25,4 +25,4 @@ inline constexpr std::array kShortLineFamilies = {ShortLines::kScattered,   Shor
 /// decimals as wall_lines.geojson stores them. Pure function of its arguments.
 WallLines short_lines(ShortLines family, std::uint64_t seed, int count);
 
-}  // namespace roomcut
+}  // namespace roomcut::partition

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace roomcut {
+namespace roomcut::partition {
 namespace {
 
 std::vector<std::int32_t> loop(const Subdivision& plan, std::int32_t start) {
@@ -70,4 +70,4 @@ TEST(Subdivision, ARemovedEdgeLeavesOneFaceWithoutItsVertices) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::partition

@@ -7,7 +7,7 @@
 #include "tests/unit/raycast/room_weights.h"
 #include "tests/unit/weigh_faces/grid_complex.h"
 
-namespace roomcut {
+namespace roomcut::raycast {
 namespace {
 
 struct Cube {
@@ -83,4 +83,4 @@ TEST(FaceWalk, PointsLieInTheirFaceAndSpreadOverIt) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::raycast

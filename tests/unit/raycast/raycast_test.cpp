@@ -7,7 +7,7 @@
 #include "tests/unit/raycast/room_weights.h"
 #include "tests/unit/weigh_faces/grid_complex.h"
 
-namespace roomcut {
+namespace roomcut::raycast {
 namespace {
 
 struct Cube {
@@ -294,4 +294,4 @@ TEST(LookedThrough, CountsForRoomsAndTheirRimsNotForWallsAndSlabs) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::raycast

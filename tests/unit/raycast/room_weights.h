@@ -7,7 +7,7 @@
 #include "common/cells/cell_complex.h"
 #include "common/cells/interfaces.h"
 
-namespace roomcut {
+namespace roomcut::raycast {
 
 inline FaceWeights no_weights(const CellComplex& c) {
   FaceWeights w;
@@ -42,4 +42,4 @@ inline FaceWeights weights_of(const CellComplex& c, const std::vector<bool>& emp
   return w;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::raycast

@@ -5,7 +5,7 @@
 
 #include "tests/unit/refine_lines/made_points.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 namespace {
 
 using testing::kDeg;
@@ -132,4 +132,4 @@ TEST(Adjust, AConstantLineIsNotTouched) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

@@ -7,7 +7,7 @@
 
 #include "tests/unit/refine_lines/made_points.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 namespace {
 
 using testing::kDeg;
@@ -63,4 +63,4 @@ TEST(AngleClasses, LinesThatTakeNoPartAreLeftAlone) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

@@ -5,7 +5,7 @@
 
 #include "tests/unit/refine_lines/made_points.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 namespace {
 
 using testing::kDeg;
@@ -93,4 +93,4 @@ TEST(Bends, WhatStandsBeforeTheWallWithoutMeetingItIsNone) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

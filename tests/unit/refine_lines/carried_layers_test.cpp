@@ -6,7 +6,7 @@
 #include "tests/unit/raycast/room_weights.h"
 #include "tests/unit/weigh_faces/grid_complex.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 namespace {
 
 /// Two storeys and the slab between. The wall at x = 4 stands in the lower storey, that at x = 4.06 in the
@@ -106,4 +106,4 @@ TEST(CarriedRuns, AShortPieceBelowALongOneIsThatWalls) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

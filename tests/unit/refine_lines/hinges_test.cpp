@@ -7,7 +7,7 @@
 
 #include "tests/unit/refine_lines/made_points.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 namespace {
 
 using testing::kDeg;
@@ -73,4 +73,4 @@ TEST(Hinges, WhatStandsBesideTheWallIsNone) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

@@ -5,7 +5,7 @@
 
 #include "tests/unit/refine_lines/grid_building.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 namespace {
 
 using testing::grid_complex;
@@ -64,4 +64,4 @@ TEST(LineFaces, AShortWallStillGivesTenBins) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

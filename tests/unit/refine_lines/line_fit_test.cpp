@@ -5,7 +5,7 @@
 
 #include "tests/unit/refine_lines/made_points.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 namespace {
 
 using testing::add_wall;
@@ -176,4 +176,4 @@ TEST(LineFit, WithoutObservationsTheLineStaysAndIsAsUncertainAsItsPrior) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

@@ -9,7 +9,7 @@
 
 #include "common/random/counter_random.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 namespace {
 
 constexpr double kBand_m = 0.06;
@@ -64,4 +64,4 @@ TEST(LineNeighbourhood, IsEmptyWithoutPointsOrLines) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

@@ -7,7 +7,7 @@
 
 #include "tests/unit/refine_lines/made_points.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 namespace {
 
 using testing::kDeg;
@@ -95,4 +95,4 @@ TEST_F(MergeLines, AUsersLineIsNeverMergedAwayButTakesOthersIn) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

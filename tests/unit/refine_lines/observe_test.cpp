@@ -6,7 +6,7 @@
 
 #include "tests/unit/refine_lines/made_points.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 namespace {
 
 using testing::add_point;
@@ -131,4 +131,4 @@ TEST(LineObserver, AnInactiveLineTakesNoPoints) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

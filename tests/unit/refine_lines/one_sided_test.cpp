@@ -8,7 +8,7 @@
 #include "tests/unit/raycast/room_weights.h"
 #include "tests/unit/weigh_faces/grid_complex.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 namespace {
 
 /// Two rooms side by side, both empty, with one wall line between them at x = 4 that was seen from the west,
@@ -119,4 +119,4 @@ TEST(UsualThickness, IsTheDistanceBetweenTheFacesOfWalls) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

@@ -10,7 +10,7 @@
 #include "tests/unit/refine_lines/grid_building.h"
 #include "tests/unit/refine_lines/made_points.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 namespace {
 
 using testing::add_wall;
@@ -205,4 +205,4 @@ TEST_F(RefineLines, AModelWithoutAnyEmptyCellSaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

@@ -6,7 +6,7 @@
 #include "stages/refine_lines/observe.h"
 #include "tests/unit/refine_lines/made_points.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 namespace {
 
 using testing::Normal;
@@ -104,4 +104,4 @@ TEST(OffsetHistogram, HoldsSixteenMillionPointsInOneBin) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

@@ -5,7 +5,7 @@
 
 #include "tests/unit/refine_lines/made_points.h"
 
-namespace roomcut {
+namespace roomcut::refine_lines {
 namespace {
 
 using testing::Normal;
@@ -118,4 +118,4 @@ TEST(SplitLines, AWallWithFewObservationsGoesWithItsNeighbour) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::refine_lines

@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "common/picture/svg.h"
-#include "stages/report/pictures.h"
+#include "stages/tools/report/pictures.h"
 #include "tests/unit/report/count.h"
 
-namespace roomcut {
+namespace roomcut::report {
 namespace {
 
 TEST(Captioned, a_drawing_keeps_its_content_below_title_and_caption) {
@@ -37,4 +37,4 @@ TEST(Captioned, a_long_caption_is_broken_into_rows) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::report

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
-#include "stages/report/pictures.h"
+#include "stages/tools/report/pictures.h"
 #include "tests/unit/report/count.h"
 
-namespace roomcut {
+namespace roomcut::report {
 namespace {
 
 /// Two squares of 1 m side by side, one layer of 2 m.
@@ -83,4 +83,4 @@ TEST(CellPictures, the_partition_names_its_lines) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::report

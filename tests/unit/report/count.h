@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace roomcut {
+namespace roomcut::report {
 
 /// How often `part` stands in `text`.
 inline std::size_t count(const std::string& text, const std::string& part) {
@@ -14,4 +14,4 @@ inline std::size_t count(const std::string& text, const std::string& part) {
   return found;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::report

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stages/report/occupancy_raster.h"
+#include "stages/tools/report/occupancy_raster.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <sstream>
 
-namespace roomcut {
+namespace roomcut::report {
 namespace {
 
 /// Cells of 0.5 m; one cell is occupied, from (1, -0.5) to (1.5, 0), over all of the height.
@@ -83,4 +83,4 @@ TEST(OccupancyRaster, gdal_gets_the_coordinate_system_and_the_corner) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::report

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stages/report/page_points.h"
+#include "stages/tools/report/page_points.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace roomcut {
+namespace roomcut::report {
 namespace {
 
 /// Two level squares of 1 m, regions 0 and 1, at z = 0 and z = 2.
@@ -63,4 +63,4 @@ TEST(PagePoints, a_region_has_the_root_mean_square_of_its_own_points) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::report

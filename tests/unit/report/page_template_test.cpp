@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stages/report/page_template.h"
+#include "stages/tools/report/page_template.h"
 
 #include <gtest/gtest.h>
 #include <zlib.h>
 
 #include <stdexcept>
 
-namespace roomcut {
+namespace roomcut::report {
 namespace {
 
 std::string gunzipped(const std::string& packed, std::size_t size) {
@@ -54,4 +54,4 @@ TEST(PageTemplate, refuses_a_template_without_place_for_data) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::report

@@ -6,7 +6,7 @@
 
 #include <map>
 
-namespace roomcut {
+namespace roomcut::slice {
 namespace {
 
 struct Count {
@@ -73,4 +73,4 @@ TEST(CellTable, IsEmptyAfterItsEntriesWereTaken) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::slice

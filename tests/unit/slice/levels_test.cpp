@@ -5,7 +5,7 @@
 
 #include "tests/unit/slice/synthetic_cloud.h"
 
-namespace roomcut {
+namespace roomcut::slice {
 namespace {
 
 using testing::SyntheticCloud;
@@ -197,4 +197,4 @@ TEST(Levels, WallsThatEndAtTheCeilingGetNone) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::slice

@@ -7,7 +7,7 @@
 #include "common/errors/codes.h"
 #include "tests/unit/slice/synthetic_cloud.h"
 
-namespace roomcut {
+namespace roomcut::slice {
 namespace {
 
 using testing::SyntheticCloud;
@@ -170,4 +170,4 @@ TEST(Slice, AnyNumberOfThreadsGivesTheSameResult) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::slice

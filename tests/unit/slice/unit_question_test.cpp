@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace roomcut {
+namespace roomcut::slice {
 namespace {
 
 Slices slices_with(const std::vector<double>& heights, double widest, const std::string& unit = "m") {
@@ -33,4 +33,4 @@ TEST(UnitQuestion, is_not_asked_of_houses_in_metres_halls_and_scans_with_another
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::slice

@@ -7,7 +7,7 @@
 
 #include "tests/unit/slice/synthetic_cloud.h"
 
-namespace roomcut {
+namespace roomcut::slice {
 namespace {
 
 using testing::SyntheticCloud;
@@ -98,4 +98,4 @@ TEST(WallSlices, AzimuthIsThatOfTheWallAlsoAcrossTheEndOfTheRange) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::slice

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stages/synthesize/families.h"
+#include "stages/tools/synthesize/families.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "common/mesh/mesh_check.h"
-#include "stages/synthesize/truth.h"
-#include "stages/synthesize/walls.h"
+#include "stages/tools/synthesize/truth.h"
+#include "stages/tools/synthesize/walls.h"
 
-namespace roomcut {
+namespace roomcut::synthesize {
 namespace {
 
 class Families : public testing::TestWithParam<std::string> {};
@@ -90,4 +90,4 @@ TEST(FamilyThin, HasThinWalls) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::synthesize

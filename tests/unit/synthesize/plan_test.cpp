@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stages/synthesize/plan.h"
+#include "stages/tools/synthesize/plan.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <stdexcept>
 
-namespace roomcut {
+namespace roomcut::synthesize {
 namespace {
 
 const Polygon2 kEll = {{0, 0}, {4, 0}, {4, 2}, {2, 2}, {2, 4}, {0, 4}};
@@ -62,4 +62,4 @@ TEST(Plan, SelfIntersectionIsSeenInBowTiesAndTouchingCorners) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::synthesize

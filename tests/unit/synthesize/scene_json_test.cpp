@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stages/synthesize/scene_json.h"
+#include "stages/tools/synthesize/scene_json.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
 #include "common/errors/codes.h"
-#include "stages/synthesize/plan.h"
+#include "stages/tools/synthesize/plan.h"
 #include "tests/unit/synthesize/test_scenes.h"
 
-namespace roomcut {
+namespace roomcut::synthesize {
 namespace {
 
 using nlohmann::json;
@@ -105,4 +105,4 @@ TEST(SceneJson, WindowsThroughTheCeilingAndShaftsOutsideTheRoomsAreRefused) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::synthesize

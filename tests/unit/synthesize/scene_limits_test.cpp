@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scenes that ask for too much are refused at once, each with a remedy.
-#include "stages/synthesize/scene_limits.h"
+#include "stages/tools/synthesize/scene_limits.h"
 
 #include <gtest/gtest.h>
 
 #include "common/errors/codes.h"
-#include "stages/synthesize/sample.h"
-#include "stages/synthesize/scene_json.h"
-#include "stages/synthesize/truth.h"
+#include "stages/tools/synthesize/sample.h"
+#include "stages/tools/synthesize/scene_json.h"
+#include "stages/tools/synthesize/truth.h"
 
-namespace roomcut {
+namespace roomcut::synthesize {
 namespace {
 
 using nlohmann::json;
@@ -139,4 +139,4 @@ TEST(SceneLimits, ScannersThatSeeHardlyAnythingAreRefused) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::synthesize

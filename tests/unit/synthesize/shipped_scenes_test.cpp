@@ -9,10 +9,10 @@
 
 #include "common/artefact/sha256.h"
 #include "common/mesh/mesh_check.h"
-#include "stages/synthesize/scene_json.h"
-#include "stages/synthesize/synthesize_io.h"
+#include "stages/tools/synthesize/scene_json.h"
+#include "stages/tools/synthesize/synthesize_io.h"
 
-namespace roomcut {
+namespace roomcut::synthesize {
 namespace {
 
 namespace fs = std::filesystem;
@@ -85,4 +85,4 @@ TEST(ShippedScenes, GiveTheSameBytesForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::synthesize

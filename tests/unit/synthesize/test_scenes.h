@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "stages/synthesize/sample.h"
-#include "stages/synthesize/scene_json.h"
-#include "stages/synthesize/truth.h"
+#include "stages/tools/synthesize/sample.h"
+#include "stages/tools/synthesize/scene_json.h"
+#include "stages/tools/synthesize/truth.h"
 
 namespace roomcut::test {
 

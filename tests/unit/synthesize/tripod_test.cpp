@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stages/synthesize/tripod.h"
+#include "stages/tools/synthesize/tripod.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "common/random/counter_random.h"
 #include "tests/unit/synthesize/test_scenes.h"
 
-namespace roomcut {
+namespace roomcut::synthesize {
 namespace {
 
 using nlohmann::json;
@@ -145,4 +145,4 @@ TEST(TripodScan, StationsAreChosenSoThatTheWholeFloorIsNear) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::synthesize

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stages/synthesize/truth.h"
+#include "stages/tools/synthesize/truth.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "common/mesh/mesh_check.h"
 #include "tests/unit/synthesize/test_scenes.h"
 
-namespace roomcut {
+namespace roomcut::synthesize {
 namespace {
 
 using nlohmann::json;
@@ -120,4 +120,4 @@ TEST(Truth, DefectsAreFound) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::synthesize

@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 
-#include "stages/synthesize/holes.h"
+#include "stages/tools/synthesize/holes.h"
 #include "tests/unit/synthesize/test_scenes.h"
 
-namespace roomcut {
+namespace roomcut::synthesize {
 namespace {
 
 using nlohmann::json;
@@ -174,4 +174,4 @@ TEST(UniformScan, CopiesStandSideBySideAndShareThePoints) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::synthesize

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stages/view/byte_range.h"
+#include "stages/tools/view/byte_range.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-namespace roomcut {
+namespace roomcut::view {
 namespace {
 
 TEST(ByteRange, NeverReachesBeyondTheFile) {
@@ -47,4 +47,4 @@ TEST(ByteRange, WhatIsNotUnderstoodGetsTheWholeFile) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::view

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stages/view/request_rules.h"
+#include "stages/tools/view/request_rules.h"
 
 #include <gtest/gtest.h>
 
-namespace roomcut {
+namespace roomcut::view {
 namespace {
 
 constexpr int kPort = 8123;
@@ -111,4 +111,4 @@ TEST(ServedFile, ThePageItsPicturesAndTheResultsOnly) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::view

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stages/view/run_progress.h"
+#include "stages/tools/view/run_progress.h"
 
 #include <gtest/gtest.h>
 
-namespace roomcut {
+namespace roomcut::view {
 namespace {
 
 TEST(RunProgress, FollowsTheStagesAndKeepsTheOtherLines) {
@@ -52,4 +52,4 @@ TEST(RunProgress, KeepsTheLastLinesOnly) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::view

@@ -6,7 +6,7 @@
 #include "tests/unit/raycast/room_weights.h"
 #include "tests/unit/weigh_faces/grid_complex.h"
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 namespace {
 
 /// The room west of x = 4 has a floor at 0, its neighbours one at 15 cm: of its wall a strip of 15 cm is a
@@ -66,4 +66,4 @@ TEST(ContinuedWalls, AreNotMadeOfAFewPointsNorInLayersThatTheLineDoesNotCarry) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

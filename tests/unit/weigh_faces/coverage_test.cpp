@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 namespace {
 
 TEST(AreaTable, SumsAnyRectangle) {
@@ -46,4 +46,4 @@ TEST(WindowDensity, GrowsTheWindowUntilItHoldsTenPoints) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 namespace {
 
 TEST(Divisions, BinsTileEveryIntervalButItsMargins) {
@@ -55,4 +55,4 @@ TEST(Divisions, ThinIntervalsKeepThreeFifths) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

@@ -5,7 +5,7 @@
 
 #include "tests/unit/weigh_faces/grid_complex.h"
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 namespace {
 
 std::vector<double> areas_of(const FaceRaster& raster, std::size_t faces) {
@@ -71,4 +71,4 @@ TEST(FaceRaster, ThinFacesKeepThreeFifthsOfTheirWidth) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

@@ -6,7 +6,7 @@
 
 #include "common/cells/cell_complex.h"
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 
 /// A cell complex whose plan is a grid: lines x = xs[1 … n-2] and y = ys[1 … n-2] inside the box xs, ys, the
 /// whole plan turned by `turn` about the origin. Face (i, j) between xs[i], xs[i+1] and ys[j], ys[j+1] has
@@ -94,4 +94,4 @@ inline std::size_t edge_near(const CellComplex& c, const Vec2& middle) {
   return best;
 }
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

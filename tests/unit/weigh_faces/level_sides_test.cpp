@@ -6,7 +6,7 @@
 #include "tests/unit/raycast/room_weights.h"
 #include "tests/unit/weigh_faces/grid_complex.h"
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 namespace {
 
 /// Level 1 of three is covered in a hall of eight faces of the plan, and in another room.
@@ -45,4 +45,4 @@ TEST(FloorProbability, IsEvenWithoutEvidence) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

@@ -9,7 +9,7 @@
 #include "common/cloud/cloud.h"
 #include "common/random/counter_random.h"
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 
 /// Random points on the surfaces of made-up rooms, with noise across the surface; classes as ingest would
 /// give them.
@@ -82,4 +82,4 @@ class SampledCloud {
   std::uint64_t seed_, counter_ = 0;
 };
 
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

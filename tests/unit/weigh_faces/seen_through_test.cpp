@@ -8,7 +8,7 @@
 #include "tests/unit/raycast/room_weights.h"
 #include "tests/unit/weigh_faces/grid_complex.h"
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 namespace {
 
 /// A facade of 37 cm: inner face at x = 4, outer plane of its windows at x = 4.37; the room lies west of it.
@@ -73,4 +73,4 @@ TEST(WalkBeside, PassesSliversUpToTheDistance) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

@@ -5,7 +5,7 @@
 
 #include <map>
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 namespace {
 
 TEST(SparseCounts, VisitsWhatIsNotZeroInARange) {
@@ -32,4 +32,4 @@ TEST(SparseCounts, VisitsWhatIsNotZeroInARange) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

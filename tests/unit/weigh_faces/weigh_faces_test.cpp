@@ -10,7 +10,7 @@
 #include "tests/unit/weigh_faces/grid_complex.h"
 #include "tests/unit/weigh_faces/sampled_cloud.h"
 
-namespace roomcut {
+namespace roomcut::weigh_faces {
 namespace {
 
 FaceWeights weigh(const CellComplex& complex, const SampledCloud& cloud) {
@@ -285,4 +285,4 @@ TEST(WeighFaces, AnyOrderOfPointsAndAnyNumberOfThreadsGivesTheSame) {
 }
 
 }  // namespace
-}  // namespace roomcut
+}  // namespace roomcut::weigh_faces

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/tools/evaluate/evaluate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "common/errors/codes.h"
+#include "stages/tools/evaluate/face_locator.h"
+
+namespace roomcut::evaluate {
+
+namespace {
+
+constexpr double kAutoSamples = 250000;
+constexpr std::uint64_t kModelSeed = 1, kTruthSeed = 2, kColumnSeed = 3;
+
+/// Bounds what a surface of long, thin triangles costs, or one of another unit; buildings stay far below.
+constexpr double kMostSamples = 1e6;
+/// Where the user chose the spacing: some 2 GB.
+constexpr double kMostChosenSamples = 2e7;
+
+double auto_spacing(double area_m2) {
+  return std::clamp(std::sqrt(area_m2 / kAutoSamples), 0.002, 0.5);
+}
+
+double column_spacing(const std::optional<double>& chosen, double area_m2) {
+  const double most = chosen ? kMostChosenSamples : kMostSamples;
+  const double spacing = chosen.value_or(std::max(auto_spacing(area_m2), std::sqrt(area_m2 / most)));
+  if (area_m2 > most * spacing * spacing * 1.01) {
+    throw StageError(
+        errors::kTooComplex, "column_spacing_m",
+        "that are more than 20 million vertical lines through " + std::to_string(area_m2) + " m^2",
+        "choose a larger spacing, or auto");
+  }
+  return spacing;
+}
+
+/// One spacing for both surfaces.
+double sample_spacing(const std::optional<double>& chosen, const TriangleMesh& model,
+                      const TriangleMesh& truth, double truth_m2) {
+  if (!chosen) {
+    return affordable_spacing(model, affordable_spacing(truth, auto_spacing(truth_m2), kMostSamples),
+                              kMostSamples);
+  }
+  for (const TriangleMesh* mesh : {&model, &truth}) {
+    const double enough = affordable_spacing(*mesh, *chosen, kMostChosenSamples);
+    if (enough > *chosen) {
+      throw StageError(errors::kTooComplex, "sample_spacing_m",
+                       "that are more than 20 million samples of one surface",
+                       "choose " + std::to_string(enough) + " or more, or auto");
+    }
+  }
+  return *chosen;
+}
+
+void require_closed_truth(const MeshCheck& check) {
+  if (!check.closed() || !check.oriented()) {
+    throw StageError(errors::kMeshNotClosed, "truth",
+                     "the mesh is not closed and evenly oriented: " + describe_faults(check),
+                     "close it first: rooms, volumes and thin walls need an inside");
+  }
+}
+
+/// Openings are cut into walls that the labels keep closed.
+std::function<bool(const Vec3&)> opening_test(const LabelledCells* cells) {
+  if (cells == nullptr) {
+    return [](const Vec3&) { return false; };
+  }
+  return [cells, locator = FaceLocator(cells->complex)](const Vec3& p) {
+    const std::vector<double>& levels = cells->complex.levels;
+    const std::int32_t face = locator.face_at(p.x(), p.y());
+    const auto above = std::upper_bound(levels.begin(), levels.end(), p.z());
+    if (face < 0 || above == levels.begin() || above == levels.end()) {
+      return false;
+    }
+    const auto layer = static_cast<std::size_t>(above - levels.begin()) - 1;
+    return cells->label[cells->complex.cell(static_cast<std::size_t>(face), layer)] == 0;
+  };
+}
+
+void score_spaces(const TriangleMesh& model, const TriangleMesh& truth,
+                  const std::vector<DescribedRoom>& described, const EvaluateParams& params,
+                  const SurfaceDistances& truth_samples, const MeasuredSurface& truth_surface,
+                  const LabelledCells* cells, Scores& scores) {
+  const Columns truth_columns(truth);
+  const Columns model_columns(model);
+  const std::vector<TruthRoom> rooms = locate_rooms(described, truth_columns);
+  const RoomFinder finder(rooms, truth_columns);
+  const Bounds3 a = bounds(model);
+  const Bounds3 b = bounds(truth);
+  const Vec2 lo = a.lo.cwiseMin(b.lo).head<2>();
+  const Vec2 hi = a.hi.cwiseMax(b.hi).head<2>();
+  scores.column_spacing_m = column_spacing(params.column_spacing_m, (hi - lo).x() * (hi - lo).y());
+  scores.volume = compare_volumes(truth_columns, model_columns, rooms, finder, lo, hi,
+                                  scores.column_spacing_m, kColumnSeed);
+  std::vector<std::uint8_t> found;
+  for (std::size_t i = 0; i < rooms.size(); ++i) {
+    RoomScore room{rooms[i], scores.volume->room_m3[i], scores.volume->room_empty_m3[i], false};
+    room.found = room.empty_m3 > params.found_share * room.volume_m3;
+    found.push_back(room.found ? 1 : 0);
+    scores.rooms.push_back(std::move(room));
+  }
+  scores.thin = score_thin_walls(truth_samples, truth_surface.all(), finder, model_columns,
+                                 params.thin_wall_m, opening_test(cells));
+  scores.merged = merged_rooms(scores.thin, found);
+  if (cells != nullptr) {
+    scores.explanation =
+        explain({cells->complex, cells->label, cells->terms ? &*cells->terms : nullptr, truth_columns,
+                 model_columns, truth_surface, rooms, finder, found, scores.thin, b},
+                scores.column_spacing_m, kColumnSeed);
+  }
+}
+
+}  // namespace
+
+std::size_t Scores::found() const {
+  return static_cast<std::size_t>(
+      std::count_if(rooms.begin(), rooms.end(), [](const RoomScore& room) { return room.found; }));
+}
+
+std::size_t Scores::in_merged_groups() const {
+  std::size_t count = 0;
+  for (const auto& group : merged) {
+    count += group.size();
+  }
+  return count;
+}
+
+TriangleMesh prepared(const TriangleMesh& mesh, const ComparedAxes& axes) {
+  TriangleMesh out = weld_vertices(mesh);
+  for (Vec3& p : out.vertices) {
+    p = axes.from_file(p);
+  }
+  if (volume(out) < 0) {
+    flip_orientation(out);
+  }
+  return out;
+}
+
+Scores evaluate(const TriangleMesh& model, const TriangleMesh& truth, const std::vector<DescribedRoom>& rooms,
+                const EvaluateParams& params, const LabelledCells* cells) {
+  Scores scores;
+  scores.truth_check = check_mesh(truth);
+  require_closed_truth(scores.truth_check);
+  scores.model_check = check_mesh(model);
+  scores.diagonal_m = bounds(truth).diagonal();
+  scores.sample_spacing_m = sample_spacing(params.sample_spacing_m, model, truth, scores.truth_check.area_m2);
+  const MeasuredSurface model_surface(model);
+  const MeasuredSurface truth_surface(truth);
+  const auto from_model = measure(model, model_surface, truth_surface, scores.sample_spacing_m, kModelSeed);
+  const auto from_truth = measure(truth, truth_surface, model_surface, scores.sample_spacing_m, kTruthSeed);
+  scores.model_samples = from_model.samples.size();
+  scores.truth_samples = from_truth.samples.size();
+  scores.model_to_truth = from_model.deviation;
+  scores.truth_to_model = from_truth.deviation;
+  for (const double buffer : kBuffers) {
+    scores.isprs.push_back({buffer, isprs_score(from_truth, from_model, SlopeClass::kWall, buffer),
+                            isprs_score(from_truth, from_model, SlopeClass::kHorizontal, buffer)});
+  }
+  scores.walls_matched = matched_share(from_truth, SlopeClass::kWall);
+  scores.horizontals_matched = matched_share(from_truth, SlopeClass::kHorizontal);
+  if (scores.model_check.closed() && scores.model_check.oriented()) {
+    score_spaces(model, truth, rooms, params, from_truth, truth_surface, cells, scores);
+  }
+  return scores;
+}
+
+}  // namespace roomcut::evaluate

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/artefact/json.h"
+#include "common/artefact/provenance.h"
+#include "stages/tools/evaluate/distance_colours.h"
+#include "stages/tools/evaluate/evaluate.h"
+
+namespace roomcut::evaluate {
+
+/// The `rooms` of a truth.json, brought into `axes`: name, floor, ceiling and either `polygon` ([[x, y], …])
+/// or a point in it (`center`). Other members are ignored. Throws StageError(kMeshFormat) for what is not
+/// that.
+std::vector<DescribedRoom> read_described_rooms(const std::filesystem::path& path, const ComparedAxes& axes);
+
+/// The cells, labels and, if given, data terms of one pass, brought into `axes`, whose turn becomes that of
+/// the cells: their faces stay upright and level. Errors as in cells_io.h.
+LabelledCells read_labelled_cells(const std::filesystem::path& cells, const std::filesystem::path& labels,
+                                  const std::filesystem::path& terms, ComparedAxes& axes);
+
+/// The member `explanation` of scores.json, and its rows in the table.
+Json explanation_json(const Explanation& explanation, const Scores& scores);
+std::string explanation_rows(const Explanation& explanation, const Scores& scores);
+
+/// truth_cells.h5 (schemas/truth_cells.md): how much of every cell is empty in the truth. `explanation` is
+/// that of `cells`.
+void write_truth_cells(const std::filesystem::path& path, const Explanation& explanation,
+                       const LabelledCells& cells, const Provenance& provenance);
+
+/// The members of scores.json (schemas/scores.md).
+Json scores_json(const Scores& scores);
+
+/// What is printed: one compact table.
+std::string scores_table(const Scores& scores);
+
+/// distance.ply: vertices coloured from 0 (dark) to `range_m` and beyond (bright), and the distance itself.
+void write_distance_ply(const std::filesystem::path& path, const DistanceMesh& mesh, const ComparedAxes& axes,
+                        double range_m);
+/// distance.png: the same seen from above at an angle, looking into the rooms.
+void write_distance_png(const std::filesystem::path& path, const DistanceMesh& mesh, double range_m);
+
+}  // namespace roomcut::evaluate

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "common/picture/colour_map.h"
+#include "stages/tools/report/pictures.h"
+#include "stages/tools/report/plan_picture.h"
+
+namespace roomcut::report {
+
+namespace {
+
+constexpr Colour kUnobserved{228, 180, 206}, kSolid{225, 225, 225}, kRoom{245, 245, 245};
+
+std::string cell_title(const DataTerms& terms, const Labels* labels, std::size_t cell) {
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "cell %zu: probability of empty %.2f; odd rays %.2f, above and below %+.2f, around %+.2f, "
+                "observed %.2f",
+                cell, terms.beta[cell], terms.kappa[cell], terms.vertical[cell], terms.around[cell],
+                terms.observed[cell]);
+  std::string title = text;
+  if (labels != nullptr) {
+    std::snprintf(text, sizeof text, "; %s%s, flipping it would cost %.2f m³",
+                  labels->label[cell] != 0 ? "empty" : "solid",
+                  labels->unobserved[cell] != 0 ? " (unobserved)" : "", labels->margin_m3[cell]);
+    title += text;
+  }
+  return title;
+}
+
+std::string name_of(const std::string& stage, std::size_t layer) {
+  return stage + "_" + std::to_string(layer) + ".svg";
+}
+
+}  // namespace
+
+Picture draw_partition(const std::string& stage, const CellComplex& complex) {
+  Svg svg = plan_of(complex);
+  draw_edges(svg, complex, nullptr, 0);
+  for (std::size_t i = 0; i < complex.lines.size(); ++i) {
+    const CellComplex::Line& line = complex.lines[i];
+    svg.line(line.line.at(line.t0), line.line.at(line.t1), categorical_colour(static_cast<int>(i)), 2,
+             line.wall_id);
+  }
+  return {
+      stage, stage + ".svg", "The plan cut into " + std::to_string(complex.faces()) + " convex faces",
+      "Grey: edges of the faces, the same in every layer. Coloured: the wall lines where points carry them.",
+      svg.str()};
+}
+
+Picture draw_weights(const std::string& stage, const CellComplex& complex, const FaceWeights& weights,
+                     std::size_t layer) {
+  Svg svg = plan_of(complex);
+  fill_cells(svg, complex, layer, [&](std::size_t /*face*/, std::size_t cell) {
+    return CellLook{kRoom, "cell " + std::to_string(cell) + ": " + std::to_string(weights.cell_points[cell]) +
+                               " points inside"};
+  });
+  for (std::size_t e = 0; e < complex.edges.size(); ++e) {
+    const std::size_t face = complex.wall_face(e, layer);
+    const double omega = weights.wall_omega[face];
+    char text[120];
+    std::snprintf(text, sizeof text, "covered over %.0f %%, %u points", 100 * omega,
+                  weights.wall_points[face]);
+    svg.line(complex.vertices[complex.edges[e].v0], complex.vertices[complex.edges[e].v1],
+             sequential_colour(1 - omega), 0.5 + 3 * omega, text);
+  }
+  return {stage, name_of(stage, layer), "Coverage of the wall faces, " + heights_of(complex, layer),
+          "The thicker and darker a face, the more of it points cover.", svg.str()};
+}
+
+Picture draw_evidence(const std::string& stage, const CellComplex& complex, const DataTerms& terms,
+                      std::size_t layer) {
+  Svg svg = plan_of(complex);
+  fill_cells(svg, complex, layer, [&](std::size_t /*face*/, std::size_t cell) {
+    return CellLook{diverging_colour(1 - 2 * static_cast<double>(terms.beta[cell])),
+                    cell_title(terms, nullptr, cell)};
+  });
+  draw_edges(svg, complex, nullptr, layer);
+  return {stage, name_of(stage, layer), "Evidence of the cells, " + heights_of(complex, layer),
+          "Blue: the evidence speaks for empty. Orange: for solid. White: undecided.", svg.str()};
+}
+
+Picture draw_cells(const std::string& stage, const CellComplex& complex, const DataTerms& terms,
+                   const Labels& labels, std::size_t layer) {
+  Svg svg = plan_of(complex);
+  fill_cells(svg, complex, layer, [&](std::size_t face, std::size_t cell) {
+    // The margin per volume says how sure the decision is, whatever the cell's size.
+    const double volume = complex.area(face) * complex.height(layer);
+    const double sure = std::clamp(labels.margin_m3[cell] / std::max(volume, 1e-9), 0.0, 1.0);
+    const bool empty = labels.label[cell] != 0;
+    const Colour fill = !empty                         ? kSolid
+                        : labels.unobserved[cell] != 0 ? kUnobserved
+                                                       : diverging_colour(-0.25 - 0.6 * sure);
+    return CellLook{fill, cell_title(terms, &labels, cell)};
+  });
+  draw_edges(svg, complex, &labels, layer);
+  return {stage, name_of(stage, layer), "Labels of the cells, " + heights_of(complex, layer),
+          "Blue: empty, darker where the decision is surer. Grey: solid or outside. Pink: empty but hardly "
+          "observed. Black: walls.",
+          svg.str()};
+}
+
+Picture draw_openings(const std::string& stage, const CellComplex& complex, const Labels& labels,
+                      const std::vector<Opening>& openings, std::size_t layer) {
+  Svg svg = plan_of(complex);
+  fill_cells(svg, complex, layer, [&](std::size_t /*face*/, std::size_t cell) {
+    return CellLook{labels.label[cell] != 0 ? diverging_colour(-0.25) : kSolid, ""};
+  });
+  draw_edges(svg, complex, &labels, layer);
+  for (const Opening& opening : openings) {
+    if (opening.sill_z >= complex.levels[layer + 1] || opening.head_z <= complex.levels[layer]) {
+      continue;
+    }
+    const Vec2 along = (opening.jamb_b - opening.jamb_a).normalized();
+    const Vec2 across = 0.5 * opening.thickness_m * Vec2(-along.y(), along.x());
+    const std::vector<Vec2> corners = {opening.jamb_a + across, opening.jamb_b + across,
+                                       opening.jamb_b - across, opening.jamb_a - across};
+    char text[120];
+    std::snprintf(text, sizeof text, "%s: %.2f m wide, %.2f m high", opening.id.c_str(), opening.width(),
+                  opening.height());
+    svg.polygon(corners, categorical_colour(2), 1, text);
+    svg.text(opening.jamb_b + 0.1 * along, opening.id, 11, {20, 20, 20});
+  }
+  return {stage, name_of(stage, layer), "Openings, " + heights_of(complex, layer),
+          "Blue: rooms. Black: walls. Green: openings, proven by points on jambs and head.", svg.str()};
+}
+
+}  // namespace roomcut::report

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <string>
+
+#include "stages/tools/synthesize/plan.h"
+#include "stages/tools/synthesize/synthesize_io.h"
+#include "stages/tools/synthesize/walls.h"
+
+namespace roomcut::synthesize {
+
+using nlohmann::json;
+
+namespace {
+
+double rounded(double value) {
+  return std::round(value * 1e6) / 1e6;
+}
+json point(const Vec2& p) {
+  return json::array({rounded(p.x()), rounded(p.y())});
+}
+json point(const Vec3& p) {
+  return json::array({rounded(p.x()), rounded(p.y()), rounded(p.z())});
+}
+
+class TruthTables {
+ public:
+  TruthTables(const Scene& scene, const Building& building)
+      : scene_(scene), building_(building), walls_(find_walls(scene)) {}
+
+  void add_copy(std::uint64_t copy) {
+    offset_ = copy_offset(scene_, building_, copy);
+    suffix_ = copies(scene_) > 1 ? " #" + std::to_string(copy) : "";
+    first_room_ = copy * scene_.rooms.size();
+    storey_ = static_cast<int>(copy) / (scene_.repeat.x * scene_.repeat.y) *
+              static_cast<int>(scene_.storeys.size());
+    add_rooms();
+    for (const WallOpening& door : building_.doors) doors.push_back(opening(door));
+    for (const WallOpening& window : building_.windows) windows.push_back(opening(window));
+    for (std::size_t i = 0; i < building_.stations.size(); ++i) {
+      const int room = building_.station_room[i];
+      stations.push_back(
+          {{"position", point(Vec3(building_.stations[i] + offset_))},
+           {"room", room < 0 ? json(nullptr) : json(first_room_ + static_cast<std::uint64_t>(room))}});
+    }
+    for (const Wall& wall : walls_) add_wall(wall);
+  }
+
+  json rooms = json::array(), doors = json::array(), windows = json::array(), stations = json::array(),
+       walls = json::array();
+
+ private:
+  Vec2 moved(const Vec2& p) const { return p + offset_.head<2>(); }
+
+  void add_rooms() {
+    for (std::size_t i = 0; i < scene_.rooms.size(); ++i) {
+      const SceneRoom& room = scene_.rooms[i];
+      const double area = doubled_area(room.polygon) / 2;
+      json polygon = json::array();
+      for (const Vec2& p : room.polygon) polygon.push_back(point(moved(p)));
+      const Vec2 inside = moved(innermost_point(room.polygon));
+      rooms.push_back(
+          {{"id", first_room_ + i},
+           {"name", room.name + suffix_},
+           {"storey", storey_ + room.storey},
+           {"storey_name", scene_.storeys[static_cast<std::size_t>(room.storey)]},
+           {"floor", rounded(room.floor + offset_.z())},
+           {"ceiling", rounded(room.ceiling + offset_.z())},
+           {"area", rounded(area)},
+           {"volume", rounded(area * (room.ceiling - room.floor))},
+           {"center", point(Vec3(inside.x(), inside.y(), 0.5 * (room.floor + room.ceiling) + offset_.z()))},
+           {"scanned", room.scanned},
+           {"polygon", polygon}});
+    }
+  }
+
+  json opening(const WallOpening& o) const {
+    json value = {{"center", point(moved(o.centre))},
+                  {"along", point(o.right)},
+                  {"width", rounded(o.width)},
+                  {"z0", rounded(o.z0 + offset_.z())},
+                  {"z1", rounded(o.z1 + offset_.z())},
+                  {"depth", rounded(o.depth)},
+                  {"rooms", json::array({first_room_ + static_cast<std::uint64_t>(o.room_a)})}};
+    if (o.room_b >= 0) value["rooms"].push_back(first_room_ + static_cast<std::uint64_t>(o.room_b));
+    return value;
+  }
+
+  void add_wall(const Wall& wall) {
+    walls.push_back({{"rooms", json::array({first_room_ + static_cast<std::uint64_t>(wall.room_a),
+                                            first_room_ + static_cast<std::uint64_t>(wall.room_b)})},
+                     {"a", point(moved(wall.a))},
+                     {"b", point(moved(wall.b))},
+                     {"thickness", rounded(wall.thickness)},
+                     {"z0", rounded(wall.z0 + offset_.z())},
+                     {"z1", rounded(wall.z1 + offset_.z())}});
+  }
+
+  const Scene& scene_;
+  const Building& building_;
+  std::vector<Wall> walls_;
+  Vec3 offset_{0, 0, 0};
+  std::string suffix_;
+  std::uint64_t first_room_ = 0;
+  int storey_ = 0;
+};
+
+}  // namespace
+
+json truth_json(const Scene& scene, const Building& building, const TriangleMesh& truth,
+                std::uint64_t points) {
+  TruthTables tables(scene, building);
+  for (std::uint64_t copy = 0; copy < copies(scene); ++copy) tables.add_copy(copy);
+  const Vec3 hi = building.hi + copy_offset(scene, building, copies(scene) - 1);
+  const auto n = static_cast<double>(copies(scene));
+  return {{"building", scene.name},
+          {"seed", scene.seed},
+          {"noise_m", scene.noise_m},
+          {"points", points},
+          {"sampling", scene.sampling.kind == SamplingKind::kTripod ? "tripod" : "uniform"},
+          {"volume", rounded(n * volume(truth))},
+          {"surface_area", rounded(n * surface_area(truth))},
+          {"bbox", json::array({point(building.lo), point(hi)})},
+          {"rooms", tables.rooms},
+          {"doors", tables.doors},
+          {"windows", tables.windows},
+          {"walls", tables.walls},
+          {"stations", scene.sampling.kind == SamplingKind::kTripod ? tables.stations : json::array()}};
+}
+
+}  // namespace roomcut::synthesize
