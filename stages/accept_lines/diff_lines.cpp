@@ -32,7 +32,8 @@ void body(StageRun& run) {
   for (const std::string& warning : edit.warnings) {
     run.warn(warning);
   }
-  const Acceptance accepted = accept_lines::accept_lines(detected.content, detected.payload_sha256, edit.content);
+  const Acceptance accepted =
+      accept_lines::accept_lines(detected.content, detected.payload_sha256, edit.content);
   for (const std::string& line : describe_changes(accepted.changes, detected.content.lines,
                                                   edit.content.lines, detected.content.frame)) {
     std::cout << line << "\n";

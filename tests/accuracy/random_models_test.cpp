@@ -23,6 +23,12 @@
 #include "tests/unit/graphcut/random_cells.h"
 
 namespace roomcut {
+using namespace roomcut::extract;
+using namespace roomcut::graphcut;
+using namespace roomcut::partition;
+using namespace roomcut::synthesize;
+using namespace roomcut::testing;
+
 namespace {
 
 /// Of each family; 50, for the 300 buildings of the README, take minutes: ROOMCUT_RANDOM_BUILDINGS=50.
@@ -117,7 +123,7 @@ FaceWeights truth_weights(const CellComplex& complex, const std::vector<float>& 
   return weights;
 }
 
-class RandomModels : public testing::TestWithParam<std::string> {};
+class RandomModels : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(RandomModels, AreValidAndEncloseJustTheirEmptyCells) {
   int models = 0;
@@ -127,7 +133,7 @@ TEST_P(RandomModels, AreValidAndEncloseJustTheirEmptyCells) {
     const Building building = random_building(GetParam(), seed);
     const double off_m = std::array{0.0, 0.003, 0.02}[seed % 3];
     const CellComplex complex =
-        partition(lines_of(building, off_m, draw), levels_of(building, off_m, draw), {}).complex;
+        partition::partition(lines_of(building, off_m, draw), levels_of(building, off_m, draw), {}).complex;
     ASSERT_EQ(find_violation(complex), "") << GetParam() << seed;
     std::vector<float> beta = truth_beta(complex, building);
     const FaceWeights weights = truth_weights(complex, beta, draw);
@@ -140,7 +146,7 @@ TEST_P(RandomModels, AreValidAndEncloseJustTheirEmptyCells) {
       SCOPED_TRACE(GetParam() + " " + std::to_string(seed) + ", mu " + std::to_string(mu));
       GraphcutParams params;
       params.mu_m = mu;
-      const Labels labels = graphcut(complex, weights, terms, params).labels;
+      const Labels labels = graphcut::graphcut(complex, weights, terms, params).labels;
       const Model model = extract_model(complex, labels, {}, {});
       EXPECT_EQ(model.fault, "");
       const MeshCheck check = check_mesh(model.surface.mesh);
@@ -160,7 +166,7 @@ TEST_P(RandomModels, AreValidAndEncloseJustTheirEmptyCells) {
   std::cout << GetParam() << ": " << models << " models, " << repaired << " of them repaired\n";
 }
 
-INSTANTIATE_TEST_SUITE_P(All, RandomModels, testing::ValuesIn(family_names()),
+INSTANTIATE_TEST_SUITE_P(All, RandomModels, ::testing::ValuesIn(family_names()),
                          [](const auto& family) { return family.param; });
 
 }  // namespace

@@ -13,6 +13,8 @@
 #include "tests/fuzz/target.h"
 
 namespace roomcut::fuzz {
+using namespace roomcut::detect_lines;
+using namespace roomcut::slice;
 
 namespace {
 
@@ -38,7 +40,7 @@ void slices(std::string_view edits) {
   DetectLinesParams coarse;  // a small accumulator: more turns a second
   coarse.hough_angle_deg = 2;
   coarse.hough_distance_m = 0.05;
-  detect_lines(read_slices(file.path()), coarse);
+  detect_lines::detect_lines(read_slices(file.path()), coarse);
 }
 
 /// The datasets that the report reads (stages/tools/report/page_plan_blocks.cpp).

@@ -13,6 +13,9 @@
 #include "tests/fuzz/target.h"
 
 namespace roomcut::fuzz {
+using namespace roomcut::accept_lines;
+using namespace roomcut::compare;
+using namespace roomcut::evaluate;
 
 namespace {
 
@@ -28,7 +31,7 @@ void edit(std::string_view bytes) {
   static const WallLinesFile kBase = read_wall_lines(seeds() / "30_detect_lines/wall_lines.geojson");
   const PrivateFile file(bytes, ".geojson");
   const WallLinesFile edited = read_edited_wall_lines(file.path(), kBase.content);
-  const Acceptance accepted = accept_lines(kBase.content, kBase.payload_sha256, edited.content);
+  const Acceptance accepted = accept_lines::accept_lines(kBase.content, kBase.payload_sha256, edited.content);
   write_wall_lines(private_folder() / "written.geojson", accepted.lines, kBase.provenance);
 }
 

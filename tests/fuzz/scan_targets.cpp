@@ -8,6 +8,7 @@
 #include "tests/fuzz/target.h"
 
 namespace roomcut::fuzz {
+using namespace roomcut::ingest;
 
 namespace {
 

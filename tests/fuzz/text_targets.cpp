@@ -10,6 +10,7 @@
 #include "tests/fuzz/target.h"
 
 namespace roomcut::fuzz {
+using namespace roomcut::synthesize;
 
 namespace {
 

@@ -5,6 +5,7 @@
 #include "stages/detect_lines/line_fit.h"
 
 namespace roomcut::testing {
+using namespace roomcut::detect_lines;
 
 /// Adds cells of 4 cm on `line` from t0 to t1, off it by up to `scatter_m` to both sides.
 inline void add_cells(WallCells& cells, const Line2& line, double t0, double t1, double scatter_m = 0,

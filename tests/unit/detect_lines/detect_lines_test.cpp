@@ -9,6 +9,9 @@
 #include "tests/unit/slice/synthetic_cloud.h"
 
 namespace roomcut::detect_lines {
+using namespace roomcut::slice;
+using namespace roomcut::testing;
+
 namespace {
 
 using testing::SyntheticCloud;

@@ -6,6 +6,8 @@
 #include "tests/unit/detect_lines/cells_on_a_line.h"
 
 namespace roomcut::detect_lines {
+using namespace roomcut::testing;
+
 namespace {
 
 using testing::add_cells;

@@ -12,6 +12,7 @@
 #include "tests/unit/extract/grid_complex.h"
 
 namespace roomcut::test {
+using namespace roomcut::find_openings;
 
 /// A rectangle in (y, z) on the wall.
 struct Patch {
@@ -81,7 +82,7 @@ class MadeWall {
         find_room_walls(made, labels(made).label, params.max_thickness_m, params.max_width_m, kColumn_m);
     WallEvidence evidence(walls, made.levels, {tolerances.margin_m, tolerances.row_m});
     evidence.add(tile_);
-    return find_openings(made, walls, evidence, params, tolerances);
+    return find_openings::find_openings(made, walls, evidence, params, tolerances);
   }
   /// Position along the wall and back again.
   double y_of(const Vec2& p) const { return turned(p, -angle).y(); }

@@ -12,6 +12,8 @@
 #include "tests/unit/graphcut/random_cells.h"
 
 namespace roomcut::graphcut {
+using namespace roomcut::testing;
+
 namespace {
 
 std::size_t middle_of(const CellComplex& complex) {

@@ -7,6 +7,8 @@
 #include "tests/unit/graphcut/random_cells.h"
 
 namespace roomcut::graphcut {
+using namespace roomcut::testing;
+
 namespace {
 
 TEST(ManifoldCheck, AgreesWithTheMeshOfTheSurfaceAtEveryVertex) {

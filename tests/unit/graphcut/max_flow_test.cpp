@@ -8,6 +8,8 @@
 #include "tests/unit/graphcut/random_cells.h"
 
 namespace roomcut::graphcut {
+using namespace roomcut::testing;
+
 namespace {
 
 struct Best {

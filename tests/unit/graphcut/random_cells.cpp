@@ -7,7 +7,8 @@
 #include "stages/partition/partition.h"
 #include "tests/unit/partition/random_lines.h"
 
-namespace roomcut::graphcut {
+namespace roomcut::testing {
+using namespace roomcut::partition;
 
 CellComplex grid_complex(int nx, int ny, int nz) {
   WallLines lines;
@@ -34,7 +35,7 @@ CellComplex grid_complex(int nx, int ny, int nz) {
   PartitionParams params;
   params.margin_m = 0.5;
   params.extend_m = 2;
-  return partition(lines, levels, params).complex;
+  return partition::partition(lines, levels, params).complex;
 }
 
 CellComplex random_complex(std::uint64_t seed, int lines, int layers) {
@@ -42,7 +43,7 @@ CellComplex random_complex(std::uint64_t seed, int lines, int layers) {
   for (int k = 0; k < layers; ++k) {
     levels.push_back(levels.back() + 1 + 2 * random_unit(seed, 77, static_cast<std::uint64_t>(k)));
   }
-  return partition(random_lines(seed, lines, seed % 2 == 1), levels, {}).complex;
+  return partition::partition(random_lines(seed, lines, seed % 2 == 1), levels, {}).complex;
 }
 
 namespace {
@@ -96,4 +97,4 @@ std::vector<std::uint8_t> random_labels(const CellComplex& complex, std::uint64_
   return label;
 }
 
-}  // namespace roomcut::graphcut
+}  // namespace roomcut::testing

@@ -6,7 +6,7 @@
 
 #include "common/cells/cell_complex.h"
 
-namespace roomcut::graphcut {
+namespace roomcut::testing {
 
 /// A box of nx x ny x nz cells of 1 m: levels 0 … nz, lines at 1 … nx - 1 and 1 … ny - 1, margins of 1 m
 /// inside it.
@@ -21,4 +21,4 @@ FaceWeights no_weights(const CellComplex& complex);
 DataTerms terms_of(const CellComplex& complex, const std::vector<float>& beta);
 std::vector<std::uint8_t> random_labels(const CellComplex& complex, std::uint64_t seed, double share_empty);
 
-}  // namespace roomcut::graphcut
+}  // namespace roomcut::testing

@@ -6,6 +6,8 @@
 #include <array>
 
 namespace roomcut::testing {
+using namespace roomcut::ingest;
+
 namespace {
 
 DecoderProcess shell(const std::string& words) {

@@ -6,6 +6,8 @@
 #include "memory_scan.h"
 
 namespace roomcut::testing {
+using namespace roomcut::ingest;
+
 namespace {
 
 std::vector<Vec3> room_points() {

@@ -9,6 +9,8 @@
 #include "scan_files.h"
 
 namespace roomcut::testing {
+using namespace roomcut::ingest;
+
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;

@@ -10,6 +10,7 @@
 #include "stages/ingest/ingest.h"
 
 namespace roomcut::testing {
+using namespace roomcut::ingest;
 
 /// A scan made in memory.
 class MemoryScan : public ScanReader {

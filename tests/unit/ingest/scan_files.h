@@ -14,6 +14,7 @@
 #include "stages/ingest/scan_reader.h"
 
 namespace roomcut::testing {
+using namespace roomcut::ingest;
 
 /// A folder of its own for one test, gone after it.
 class ScanFiles : public ::testing::Test {

@@ -12,6 +12,8 @@
 #include "stages/ingest/scan_middle.h"
 
 namespace roomcut::testing {
+using namespace roomcut::ingest;
+
 namespace {
 
 ScanBlock block_of(const std::vector<Vec3>& points) {

@@ -4,6 +4,8 @@
 #include "scan_files.h"
 
 namespace roomcut::testing {
+using namespace roomcut::ingest;
+
 namespace {
 
 using ScanPly = ScanFiles;

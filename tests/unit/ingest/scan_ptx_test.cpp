@@ -2,6 +2,8 @@
 #include "scan_files.h"
 
 namespace roomcut::testing {
+using namespace roomcut::ingest;
+
 namespace {
 
 using ScanPtx = ScanFiles;

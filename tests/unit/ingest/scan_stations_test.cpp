@@ -3,6 +3,8 @@
 #include "scan_files.h"
 
 namespace roomcut::testing {
+using namespace roomcut::ingest;
+
 namespace {
 
 using ScanStations = ScanFiles;

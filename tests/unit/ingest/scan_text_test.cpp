@@ -5,6 +5,8 @@
 #include "stages/ingest/number_text.h"
 
 namespace roomcut::testing {
+using namespace roomcut::ingest;
+
 namespace {
 
 using ScanText = ScanFiles;

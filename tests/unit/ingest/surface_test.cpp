@@ -6,6 +6,8 @@
 #include "memory_scan.h"
 
 namespace roomcut::testing {
+using namespace roomcut::ingest;
+
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;

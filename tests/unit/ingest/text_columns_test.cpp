@@ -6,6 +6,8 @@
 #include "scan_files.h"
 
 namespace roomcut::testing {
+using namespace roomcut::ingest;
+
 namespace {
 
 using TextColumns = ScanFiles;

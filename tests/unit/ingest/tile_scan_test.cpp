@@ -10,6 +10,8 @@
 #include "scan_files.h"
 
 namespace roomcut::testing {
+using namespace roomcut::ingest;
+
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();

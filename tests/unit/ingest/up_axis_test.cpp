@@ -6,6 +6,8 @@
 #include "memory_scan.h"
 
 namespace roomcut::testing {
+using namespace roomcut::ingest;
+
 namespace {
 
 /// The question asked of a room whose corners are turned: its height lies along axis `up` of the file.

@@ -8,6 +8,8 @@
 #include "tests/unit/weigh_faces/grid_complex.h"
 
 namespace roomcut::raycast {
+using namespace roomcut::weigh_faces;
+
 namespace {
 
 struct Cube {

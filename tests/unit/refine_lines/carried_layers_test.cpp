@@ -7,6 +7,9 @@
 #include "tests/unit/weigh_faces/grid_complex.h"
 
 namespace roomcut::refine_lines {
+using namespace roomcut::raycast;
+using namespace roomcut::weigh_faces;
+
 namespace {
 
 /// Two storeys and the slab between. The wall at x = 4 stands in the lower storey, that at x = 4.06 in the

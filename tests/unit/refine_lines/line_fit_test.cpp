@@ -6,6 +6,8 @@
 #include "tests/unit/refine_lines/made_points.h"
 
 namespace roomcut::refine_lines {
+using namespace roomcut::testing;
+
 namespace {
 
 using testing::add_wall;

@@ -10,6 +10,7 @@
 #include "stages/refine_lines/line_faces.h"
 
 namespace roomcut::testing {
+using namespace roomcut::refine_lines;
 
 inline constexpr double kDeg = std::numbers::pi / 180;
 

@@ -9,6 +9,9 @@
 #include "tests/unit/weigh_faces/grid_complex.h"
 
 namespace roomcut::refine_lines {
+using namespace roomcut::raycast;
+using namespace roomcut::weigh_faces;
+
 namespace {
 
 /// Two rooms side by side, both empty, with one wall line between them at x = 4 that was seen from the west,

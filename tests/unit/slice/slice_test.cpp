@@ -8,6 +8,8 @@
 #include "tests/unit/slice/synthetic_cloud.h"
 
 namespace roomcut::slice {
+using namespace roomcut::testing;
+
 namespace {
 
 using testing::SyntheticCloud;

@@ -17,6 +17,7 @@
 #include "stages/slice/tile_source.h"
 
 namespace roomcut::testing {
+using namespace roomcut::slice;
 
 /// Points on made-up surfaces, classified as ingest would, in tiles. Everything follows from the seed.
 class SyntheticCloud {

@@ -9,6 +9,7 @@
 #include "stages/tools/synthesize/truth.h"
 
 namespace roomcut::test {
+using namespace roomcut::synthesize;
 
 /// A closed room of 4 x 3 x 2.5 m; `more` is merged into the scene.
 inline Scene box_scene(const nlohmann::json& more = nlohmann::json::object()) {

@@ -10,6 +10,8 @@
 #include "tests/unit/synthesize/test_scenes.h"
 
 namespace roomcut::synthesize {
+using namespace roomcut::test;
+
 namespace {
 
 using nlohmann::json;

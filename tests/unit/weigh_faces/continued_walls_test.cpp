@@ -7,6 +7,8 @@
 #include "tests/unit/weigh_faces/grid_complex.h"
 
 namespace roomcut::weigh_faces {
+using namespace roomcut::raycast;
+
 namespace {
 
 /// The room west of x = 4 has a floor at 0, its neighbours one at 15 cm: of its wall a strip of 15 cm is a

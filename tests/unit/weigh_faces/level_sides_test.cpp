@@ -7,6 +7,8 @@
 #include "tests/unit/weigh_faces/grid_complex.h"
 
 namespace roomcut::weigh_faces {
+using namespace roomcut::raycast;
+
 namespace {
 
 /// Level 1 of three is covered in a hall of eight faces of the plan, and in another room.

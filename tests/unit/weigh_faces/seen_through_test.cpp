@@ -9,6 +9,8 @@
 #include "tests/unit/weigh_faces/grid_complex.h"
 
 namespace roomcut::weigh_faces {
+using namespace roomcut::raycast;
+
 namespace {
 
 /// A facade of 37 cm: inner face at x = 4, outer plane of its windows at x = 4.37; the room lies west of it.
