@@ -47,8 +47,9 @@ Vec2 CellComplex::centroid(std::size_t face) const {
 }
 
 void DataTerms::reset(const CellComplex& complex) {
-  for (std::vector<float>* values : {&kappa, &vertical, &around, &winding, &surface_m2, &thin, &behind,
-                                     &in_slab, &open, &outdoors, &sky, &line_of_sight, &observed, &beta}) {
+  features.clear();
+  for (std::vector<float>* values :
+       {&kappa, &vertical, &around, &winding, &surface_m2, &thin, &line_of_sight, &observed, &beta}) {
     values->assign(complex.cells(), 0);
   }
   wall_implied.assign(complex.edges.size() * complex.layers(), 0);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/artefact/provenance.h"
+#include "common/cells/surface_decision.h"
 #include "common/geometry/line2.h"
 
 namespace roomcut {
@@ -93,13 +94,34 @@ struct FaceWeights {
   std::vector<float>
       cell_slope;              ///< cells: share of the plan over which a sloped surface (roof) passes through
   std::vector<Vec3> stations;  ///< scanner positions, where the scan names them [m]
+
+  /// Whether a face is a surface, and which side of a wall face is empty: surface_decision.h.
+  double wall_probability(std::size_t face) const { return surface_probability(wall_omega[face]); }
+  double level_probability(std::size_t face) const { return surface_probability(level_omega[face]); }
+  bool is_wall(std::size_t face) const { return is_likely(wall_probability(face)); }
+  bool is_level(std::size_t face) const { return is_likely(level_probability(face)); }
+  FaceSide wall_side(std::size_t face) const {
+    return clear_side(wall_omega[face], wall_left[face], wall_right[face]);
+  }
 };
 
-/// Evidence and data term per cell (paper §2, data term). Every measure is kept, to explain why a cell came
-/// out empty or solid.
+/// A measure of every cell that speaks for empty or against it, and how much.
+struct CellFeature {
+  std::string name;
+  double weight = 0;         ///< log-odds of empty per unit
+  std::string meaning;       ///< one sentence
+  std::vector<float> value;  ///< per cell
+};
+
+/// Evidence and data term per cell (paper §2, data term): beta = sigma(constant + sum of weight * value over
+/// the features). Other measures are kept to look at.
 struct DataTerms {
-  /// Sets all values to 0, as many as the complex has cells and faces.
+  /// Sets all values to 0, as many as the complex has cells and faces; no features.
   void reset(const CellComplex& complex);
+
+  std::vector<CellFeature> features;
+  double constant = 0;         ///< log-odds of a cell of which nothing is known
+  std::string weights_source;  ///< where constant and weights come from
 
   std::vector<float> kappa;     ///< share of rays with an odd number of crossings, 0 … 1
   std::vector<float> vertical;  ///< nearest permanent face straight up and down: +1 empty … -1 solid
@@ -108,17 +130,11 @@ struct DataTerms {
   std::vector<float> winding;
   /// Covered area of the cell's own faces, + where it faces the cell, - where it turns its back [m^2].
   std::vector<float> surface_m2;
-  std::vector<float>
-      behind;  ///< share of the rays that end close by on a face's back, 0 … 1: inside a wall or slab
-  std::vector<float> thin;      ///< 1 = as thin as walls and slabs, 0 = wider than any
-  std::vector<float> in_slab;   ///< backs close by straight up and down, 0 … 1
-  std::vector<float> open;      ///< share of the level rays that meet nothing, beyond a fifth
-  std::vector<float> outdoors;  ///< share of the columns with nothing below times that with nothing above
-  std::vector<float> sky;       ///< share of the rising rays that meet nothing at all: outdoors
+  std::vector<float> thin;           ///< 1 = as thin as walls and slabs, 0 = wider than any
   std::vector<float> line_of_sight;  ///< share of the cell that the scanners looked through, where their
                                      ///< positions are known
-  std::vector<float> observed;  ///< share of rays that end on a seen face: 0 = nothing is known of the cell
-  std::vector<float> beta;      ///< probability that the cell is empty, 0 … 1
+  std::vector<float> observed;       ///< share of rays that end on a seen face: 0 = nothing is known of it
+  std::vector<float> beta;           ///< probability that the cell is empty, 0 … 1
   /// Faces that must be there though no point lies on them, 0 … 1: the other side of a wall or slab that was
   /// seen from one side only.
   std::vector<float> wall_implied, level_implied;

@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "common/artefact/h5_list.h"
 #include "common/artefact/limits.h"
 #include "common/errors/codes.h"
 
@@ -28,6 +29,8 @@ void require_size(std::size_t actual, std::size_t expected, const char* dataset)
 }
 
 namespace {
+
+constexpr double kLargestFeature = 1e6;
 
 struct Sizes {
   std::size_t walls, levels, cells;
@@ -105,10 +108,41 @@ bool write_weights(const std::filesystem::path& path, const FaceWeights& weights
   return file.commit();
 }
 
+namespace {
+
+/// The datasets of `cell` with a weight are the features: whichever there are.
+DataTerms read_features(const H5Reader& file, std::size_t count) {
+  DataTerms terms;
+  terms.constant = file.attribute_double("cell", "constant");
+  terms.weights_source = file.attribute_string("cell", "weights_source");
+  for (const DatasetInfo& info : list_datasets(file, "cell")) {
+    if (const auto weight = info.numbers.find("weight"); weight != info.numbers.end()) {
+      const std::string path = "cell/" + info.name;
+      terms.features.push_back(
+          {info.name, weight->second, info.description,
+           read_in_range<float>(file, path, {count}, -kLargestFeature, kLargestFeature)});
+    }
+  }
+  return terms;
+}
+
+void write_features(H5Writer& file, const DataTerms& terms, std::size_t count) {
+  for (const CellFeature& feature : terms.features) {
+    const std::string path = "cell/" + feature.name;
+    require_size(feature.value.size(), count, path.c_str());
+    file.write(path, feature.value, "1", feature.meaning);
+    file.attribute(path, "weight", feature.weight);
+  }
+  file.attribute("cell", "constant", terms.constant);
+  file.attribute("cell", "weights_source", terms.weights_source);
+}
+
+}  // namespace
+
 DataTerms read_data_terms(const std::filesystem::path& path, const CellsFile& cells) {
   const H5Reader file = open_for_cells(path, artefacts::kDataTerms, cells);
   const std::size_t count = cells.complex.cells();
-  DataTerms terms;
+  DataTerms terms = read_features(file, count);
   terms.kappa = read_share(file, "cell/kappa", count);
   terms.vertical = read_share(file, "cell/vertical", count, -1);
   terms.around = read_share(file, "cell/around", count, -1);
@@ -116,12 +150,7 @@ DataTerms read_data_terms(const std::filesystem::path& path, const CellsFile& ce
   terms.surface_m2 = file.read<float>("cell/surface", {count});
   check_range(file, "cell/winding", terms.winding, -1e6, 1e6);
   check_range(file, "cell/surface", terms.surface_m2, -1e12, 1e12);
-  terms.behind = read_share(file, "cell/behind", count);
   terms.thin = read_share(file, "cell/thin", count);
-  terms.in_slab = read_share(file, "cell/in_slab", count);
-  terms.open = read_share(file, "cell/open", count);
-  terms.outdoors = read_share(file, "cell/outdoors", count);
-  terms.sky = read_share(file, "cell/sky", count);
   terms.line_of_sight = read_share(file, "cell/line_of_sight", count);
   terms.observed = read_share(file, "cell/observed", count);
   terms.beta = read_share(file, "cell/beta", count);
@@ -150,18 +179,9 @@ bool write_data_terms(const std::filesystem::path& path, const DataTerms& terms,
   require_size(terms.surface_m2.size(), count, "cell/surface");
   file.write("cell/surface", terms.surface_m2, "m^2",
              "covered area of the cell's own faces: + where it faces the cell, - where it turns its back");
-  write_share(file, "cell/behind", terms.behind, count,
-              "share of the rays that end close by on a face's back: inside a wall or slab");
   write_share(file, "cell/thin", terms.thin, count, "how far the cell is as thin as walls and slabs are");
-  write_share(file, "cell/in_slab", terms.in_slab, count,
-              "backs close by straight up and down: inside a slab");
-  write_share(file, "cell/open", terms.open, count,
-              "share of the level rays that meet nothing, beyond a fifth: not closed all around");
-  write_share(file, "cell/outdoors", terms.outdoors, count,
-              "share of the columns with nothing below times that with nothing above");
   write_share(file, "cell/line_of_sight", terms.line_of_sight, count,
               "share of the cell that the scanners looked through; 0 where no position is known");
-  write_share(file, "cell/sky", terms.sky, count, "share of the rising rays that meet nothing: outdoors");
   write_share(file, "cell/observed", terms.observed, count, "share of the rays that end on a seen face");
   write_share(file, "cell/beta", terms.beta, count, "probability that the cell is empty");
   require_size(terms.d_empty.size(), count, "cell/d_empty");
@@ -170,6 +190,7 @@ bool write_data_terms(const std::filesystem::path& path, const DataTerms& terms,
              "cost of the label empty: volume x (1 - beta) + what its own faces' backs add");
   file.write("cell/d_solid", terms.d_solid, "m^3",
              "cost of the label solid: volume x beta + what its own faces' fronts add");
+  write_features(file, terms, count);
   const Sizes sizes(cells.complex);
   write_share(file, "wall/implied", terms.wall_implied, sizes.walls,
               "how far the wall face is the unseen other side of a wall that was seen");

@@ -15,12 +15,6 @@ double quantised(double value) {
   return std::nearbyint(value / EnergyTerms::kQuantum_m3) * EnergyTerms::kQuantum_m3;
 }
 
-/// What is charged of a face of which `omega` was seen.
-double unseen(double omega) {
-  constexpr double kWhole = 0.3;  // of a wall; the paper's 1 gave up walls behind furniture, and glazed ones
-  return std::max(0.0, 1 - omega / kWhole);
-}
-
 bool is_empty(const std::vector<std::uint8_t>& label, std::int64_t cell) {
   return cell >= 0 && label[static_cast<std::size_t>(cell)] == static_cast<std::uint8_t>(Label::kEmpty);
 }
@@ -46,10 +40,11 @@ EnergyTerms energy_terms(const CellComplex& complex, const FaceWeights& weights,
   energy.wall.resize(weights.wall_omega.size());
   energy.level.resize(weights.level_omega.size());
   for_each_interface(complex, [&](const Interface& face) {
-    const double omega = face.wall ? weights.wall_omega[face.index] : weights.level_omega[face.index];
+    const double seen =
+        face.wall ? weights.wall_probability(face.index) : weights.level_probability(face.index);
     const double implied = face.wall ? terms.wall_implied[face.index] : terms.level_implied[face.index];
     (face.wall ? energy.wall : energy.level)[face.index] =
-        quantised(mu_m * unseen(omega) * (1.0 - implied) * face.area);
+        quantised(mu_m * (1.0 - seen) * (1.0 - implied) * face.area);
   });
   return energy;
 }

@@ -11,16 +11,10 @@ namespace {
 constexpr double kStill = 1e-12;  // a ray that moves less towards a face runs along it
 }
 
-double completed_share(double omega) {
-  constexpr double kNothing = 0.05;  // stray points, rims
-  constexpr double kWhole = 0.4;
-  return std::clamp((omega - kNothing) / (kWhole - kNothing), 0.0, 1.0);
-}
-
 FaceWalk::FaceWalk(const CellComplex& complex, const FaceWeights& weights)
     : complex_(complex), weights_(weights) {
   const auto complete = [](float omega, float front, float back) {
-    const double scale = omega > 0 ? completed_share(omega) / omega : 0;
+    const double scale = omega > 0 ? surface_probability(omega) / omega : 0;
     return Sides{static_cast<float>(scale * front), static_cast<float>(scale * back)};
   };
   for (std::size_t i = 0; i < weights.wall_omega.size(); ++i) {
@@ -30,7 +24,8 @@ FaceWalk::FaceWalk(const CellComplex& complex, const FaceWeights& weights)
     Sides sides = complete(weights.level_omega[i], weights.level_floor[i], weights.level_ceiling[i]);
     // A roof that passes through the cell below shuts it like a ceiling.
     const float slope = i < complex.faces() ? 0 : weights.cell_slope[i - complex.faces()];
-    sides.back = std::max(sides.back, std::min(static_cast<float>(completed_share(slope)), 1 - sides.front));
+    sides.back =
+        std::max(sides.back, std::min(static_cast<float>(surface_probability(slope)), 1 - sides.front));
     levels_.push_back(sides);
   }
   sides_.reserve(complex.face_vertex.size());

@@ -19,10 +19,6 @@ struct Crossing {
   std::size_t cell;  ///< the cell that the ray leaves here
 };
 
-/// The share of a face that is taken for a surface when `omega` of it was seen. Windows, furniture and
-/// shadows hide parts of most walls and floors: the rest of a face is like what was seen of it.
-double completed_share(double omega);
-
 struct Ray {
   Vec3 origin;
   Vec3 direction;           ///< unit vector

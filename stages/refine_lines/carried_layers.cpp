@@ -17,7 +17,6 @@
 namespace roomcut::refine_lines {
 namespace {
 
-constexpr float kSeen = 0.3F;         // coverage of a wall face: more than stray points and rims
 constexpr float kUnseen = 0.5F;       // what a face of the surface counts at least: furniture hides walls
 constexpr double kBeside_m = 0.04;    // points so near another line may as well be that one's
 constexpr double kSimilar_rad = 0.6;  // lines at larger angles leave each other's neighbourhood at once
@@ -61,7 +60,7 @@ Loads find_loads(const CellComplex& complex, const FaceWeights& weights,
     const CellComplex::Edge& edge = complex.edges[face.index % complex.edges.size()];
     const float seen = weights.wall_omega[face.index];
     const bool surface = is_surface(face, label);
-    if (edge.line < 0 || (!surface && seen < kSeen)) {
+    if (edge.line < 0 || (!surface && !weights.is_wall(face.index))) {
       return;
     }
     const auto i = static_cast<std::size_t>(edge.line);

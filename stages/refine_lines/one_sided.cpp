@@ -13,8 +13,6 @@
 namespace roomcut::refine_lines {
 namespace {
 
-constexpr float kSeen = 0.4F;       // coverage with which a wall face stands for a wall
-constexpr double kClear = 0.7;      // share of the coverage that must agree on the side
 constexpr double kBeside = 0.04;    // [m] slivers between nearly equal lines are passed over
 constexpr double kThinnest = 0.05;  // [m] of walls
 constexpr double kThickest = 0.6;   // [m]
@@ -92,9 +90,9 @@ std::vector<OneSidedWall> find_one_sided(const CellComplex& complex, const FaceW
     for (std::size_t layer = 0; layer < complex.layers(); ++layer) {
       const std::size_t w = complex.wall_face(edge, layer);
       const float omega = weights.wall_omega[w];
-      const bool front_left = weights.wall_left[w] > kClear * omega;
-      const bool clear = front_left || weights.wall_right[w] > kClear * omega;
-      if (omega < kSeen || !clear || !is_empty(complex, label, left, layer) ||
+      const FaceSide side = weights.wall_side(w);
+      const bool front_left = side == FaceSide::kLeft;
+      if (!weights.is_wall(w) || side == FaceSide::kUnclear || !is_empty(complex, label, left, layer) ||
           !is_empty(complex, label, right, layer)) {
         continue;
       }

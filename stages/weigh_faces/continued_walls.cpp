@@ -8,10 +8,7 @@
 namespace roomcut::weigh_faces {
 namespace {
 
-constexpr float kCovered = 0.5F;             // of the neighbour, to be a wall
 constexpr std::uint32_t kFewestPoints = 10;  // of the neighbour, to know its density
-constexpr float kClear = 0.75F;              // share of the coverage that must agree on the side
-constexpr float kRoomEnds = 0.3F;            // covered share of a level
 constexpr double kWeight = 3;                // points
 
 /// Coverage that the face in layer `to` takes from the one in layer `from`; 0 for none.
@@ -19,16 +16,15 @@ float continued(const CellComplex& complex, const FaceWeights& weights, std::siz
                 std::size_t to) {
   const std::size_t w = complex.wall_face(edge, from);
   const float omega = weights.wall_omega[w];
-  const bool left = weights.wall_left[w] > kClear * omega;
-  if (omega < kCovered || weights.wall_points[w] < kFewestPoints ||
-      (!left && weights.wall_right[w] <= kClear * omega)) {
+  const FaceSide side = weights.wall_side(w);
+  if (!weights.is_wall(w) || weights.wall_points[w] < kFewestPoints || side == FaceSide::kUnclear) {
     return 0;
   }
   const CellComplex::Edge& e = complex.edges[edge];
-  const std::int32_t empty = left ? e.left : e.right;
+  const std::int32_t empty = side == FaceSide::kLeft ? e.left : e.right;
+  // Where the room ends at a floor or ceiling, so does the wall.
   if (empty < 0 ||
-      weights.level_omega[complex.level_face(static_cast<std::size_t>(empty), std::max(from, to))] >=
-          kRoomEnds) {
+      weights.is_level(complex.level_face(static_cast<std::size_t>(empty), std::max(from, to)))) {
     return 0;
   }
   const double expected =

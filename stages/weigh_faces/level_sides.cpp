@@ -9,11 +9,9 @@
 namespace roomcut::weigh_faces {
 namespace {
 
-constexpr float kCovered = 0.1F;  // coverage with which a face belongs to a surface
-constexpr float kWall = 0.5F;     // coverage with which a wall separates
-constexpr double kPrior = 10;     // bins that the surface's evidence is worth against a face's own
-constexpr double kLevel = 50;     // bins that the level's other surfaces are worth against one surface's own
-constexpr double kGap = 0.4;      // weight of the gaps: suspended ceilings under a plenum forbid more
+constexpr double kPrior = 10;  // bins that the surface's evidence is worth against a face's own
+constexpr double kLevel = 50;  // bins that the level's other surfaces are worth against one surface's own
+constexpr double kGap = 0.4;   // weight of the gaps: suspended ceilings under a plenum forbid more
 constexpr double kSteepness = 6;
 
 std::size_t root_of(std::vector<std::size_t>& parent, std::size_t face) {
@@ -28,17 +26,15 @@ std::size_t root_of(std::vector<std::size_t>& parent, std::size_t face) {
 std::vector<std::size_t> surfaces(const CellComplex& complex, const FaceWeights& weights, std::size_t level) {
   std::vector<std::size_t> parent(complex.faces());
   std::iota(parent.begin(), parent.end(), std::size_t{0});
-  const auto covered = [&](std::size_t face) {
-    return weights.level_omega[complex.level_face(face, level)] > kCovered;
-  };
+  const auto covered = [&](std::size_t face) { return weights.is_level(complex.level_face(face, level)); };
   for (std::size_t e = 0; e < complex.edges.size(); ++e) {
     if (complex.edges[e].left < 0 || complex.edges[e].right < 0) {
       continue;
     }
     auto a = static_cast<std::size_t>(complex.edges[e].left);
     auto b = static_cast<std::size_t>(complex.edges[e].right);
-    const bool wall = (level > 0 && weights.wall_omega[complex.wall_face(e, level - 1)] > kWall) ||
-                      (level < complex.layers() && weights.wall_omega[complex.wall_face(e, level)] > kWall);
+    const bool wall = (level > 0 && weights.is_wall(complex.wall_face(e, level - 1))) ||
+                      (level < complex.layers() && weights.is_wall(complex.wall_face(e, level)));
     if (!wall && covered(a) && covered(b)) {
       a = root_of(parent, a);
       b = root_of(parent, b);

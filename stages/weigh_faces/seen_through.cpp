@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kDeepest = 0.6;    // [m] thickness of a facade
 constexpr double kSparser = 0.3;    // points per covered area, of that of the wall in front
-constexpr double kClear = 0.75;     // share of the coverage that must agree on the side
 constexpr double kParallel = 0.95;  // cosine
 
 /// Points per covered area; 0 without points.
@@ -40,8 +39,7 @@ double density_in_front(const CellComplex& complex, const FaceWeights& weights, 
     }
     const std::size_t w = complex.wall_face(other, layer);
     // The way meets the other face from its back: its front is on the far side.
-    const float front = from_left ? weights.wall_right[w] : weights.wall_left[w];
-    if (front > kClear * weights.wall_omega[w]) {
+    if (weights.wall_side(w) == (from_left ? FaceSide::kRight : FaceSide::kLeft)) {
       densest = std::max(densest, covered_density(complex, weights, other, layer));
     }
   });
@@ -55,12 +53,12 @@ void discount_seen_through(const CellComplex& complex, FaceWeights& weights) {
   for (std::size_t layer = 0; layer < complex.layers(); ++layer) {
     for (std::size_t edge = 0; edge < complex.edges.size(); ++edge) {
       const std::size_t w = complex.wall_face(edge, layer);
-      const float omega = weights.wall_omega[w];
-      const bool left = weights.wall_left[w] > kClear * omega;
-      if (omega <= 0 || (!left && weights.wall_right[w] <= kClear * omega)) {
+      const FaceSide side = weights.wall_side(w);
+      if (side == FaceSide::kUnclear) {
         continue;
       }
-      const double expected = kSparser * density_in_front(complex, weights, edge, layer, left);
+      const double expected =
+          kSparser * density_in_front(complex, weights, edge, layer, side == FaceSide::kLeft);
       const double own = covered_density(complex, weights, edge, layer);
       if (own < expected) {
         factor[w] = static_cast<float>(own / expected);

@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kSeen = 0.15;      // coverage of a floor or ceiling on either side: enough to ask
 constexpr double kEnough = 0.75;    // coverage beyond which no further floor or ceiling is asked
-constexpr double kContinues = 0.3;  // coverage with which a wall goes on into the next layer
 constexpr double kPrior = 0.1;      // coverage below which neither side is believed
 constexpr double kLevelWeight = 5;  // log-odds of a floor that is whole on one side and missing on the other
 constexpr double kStripWeight = 5;  // the same for the strips
@@ -68,7 +67,7 @@ std::int32_t FacesBeside::face(const CellComplex& complex, const FaceWeights& we
   for (const Step& step : beyond_) {
     const std::int32_t line = complex.edges[step.edge].line;
     const bool open = line >= 0 && !complex.lines[static_cast<std::size_t>(line)].carries(layer);
-    const bool within = step.within && weights.wall_omega[complex.wall_face(step.edge, layer)] < kContinues;
+    const bool within = step.within && !weights.is_wall(complex.wall_face(step.edge, layer));
     if (!open && !within) {
       break;
     }
@@ -82,9 +81,7 @@ double left_probability(const CellComplex& complex, const FaceWeights& weights, 
                         const FacesBeside& right) {
   const std::int32_t left_face = left.face(complex, weights, layer);
   const std::int32_t right_face = right.face(complex, weights, layer);
-  const auto goes_on = [&](std::size_t k) {
-    return weights.wall_omega[complex.wall_face(edge, k)] > kContinues;
-  };
+  const auto goes_on = [&](std::size_t k) { return weights.is_wall(complex.wall_face(edge, k)); };
   double score = kStripWeight * (strips.left - strips.right);
   const auto look = [&](const std::vector<float>& kind, bool up) {
     const auto on = [&](std::int32_t face, std::size_t level) {

@@ -185,7 +185,7 @@ class Command(unittest.TestCase):
             path = os.path.join(copy, "90_final", "data_terms.h5")
             with h5py.File(path, "r+") as file:
                 file["cell/sky"][0] = 1 - file["cell/sky"][0]
-            with self.assertRaisesRegex(weight_terms.Unusable, "data_terms.h5: its beta is not what SHIPPED"):
+            with self.assertRaisesRegex(weight_terms.Unusable, "data_terms.h5: its beta is not what its features"):
                 weight_terms.read_terms(copy)
             with h5py.File(path, "r+") as file:
                 file.attrs["cells_payload_sha256"] = "0" * 64

@@ -51,16 +51,16 @@ class CellsIo : public testing::Test {
   DataTerms terms() const {
     DataTerms terms;
     terms.reset(cells_.complex);
-    for (auto* values : {&terms.thin, &terms.in_slab, &terms.open, &terms.outdoors, &terms.line_of_sight}) {
+    terms.constant = 1.1;
+    terms.weights_source = "a search";
+    terms.features = {{"open", -3, "not closed", {0, 0, 0.5F, 0, 0, 0}},
+                      {"sky", -0.8, "outdoors", {1, 2, 3, 4, 5, 6}}};
+    for (auto* values : {&terms.thin, &terms.line_of_sight}) {
       values->assign(6, 0.25F);
     }
-    terms.in_slab[1] = 0.5F;
-    terms.open[2] = 0.5F;
-    terms.outdoors[3] = 0.5F;
     terms.line_of_sight[4] = 0.5F;
     terms.wall_implied.front() = 0.75F;
     terms.level_implied.back() = 1.0F;
-    terms.sky.assign(6, 0.5F);
     terms.vertical[2] = -1;
     terms.winding[1] = -3;
     terms.surface_m2[0] = -12.5F;
@@ -174,12 +174,16 @@ TEST_F(CellsIo, EvidenceAndLabelsComeBackAsTheyWere) {
   EXPECT_EQ(t.vertical, terms().vertical);
   EXPECT_EQ(t.winding, terms().winding);
   EXPECT_EQ(t.surface_m2, terms().surface_m2);
-  EXPECT_EQ(t.behind, terms().behind);
-  EXPECT_EQ(t.sky, terms().sky);
   EXPECT_EQ(t.thin, terms().thin);
-  EXPECT_EQ(t.in_slab, terms().in_slab);
-  EXPECT_EQ(t.open, terms().open);
-  EXPECT_EQ(t.outdoors, terms().outdoors);
+  ASSERT_EQ(t.features.size(), 2U);
+  for (std::size_t i = 0; i < t.features.size(); ++i) {
+    EXPECT_EQ(t.features[i].name, terms().features[i].name);
+    EXPECT_EQ(t.features[i].weight, terms().features[i].weight);
+    EXPECT_EQ(t.features[i].meaning, terms().features[i].meaning);
+    EXPECT_EQ(t.features[i].value, terms().features[i].value);
+  }
+  EXPECT_EQ(t.constant, 1.1);
+  EXPECT_EQ(t.weights_source, "a search");
   EXPECT_EQ(t.line_of_sight, terms().line_of_sight);
   EXPECT_EQ(t.wall_implied, terms().wall_implied);
   EXPECT_EQ(t.level_implied, terms().level_implied);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "stages/raycast/cell_evidence.h"
 #include "tests/unit/raycast/room_weights.h"
 #include "tests/unit/weigh_faces/grid_complex.h"
 
@@ -11,6 +12,12 @@ namespace roomcut::raycast {
 using namespace roomcut::weigh_faces;
 
 namespace {
+
+const std::vector<float>& feature(const DataTerms& terms, const std::string& name) {
+  return std::find_if(terms.features.begin(), terms.features.end(),
+                      [&](const CellFeature& f) { return f.name == name; })
+      ->value;
+}
 
 struct Cube {
   CellComplex complex = grid_complex({-2, 0, 3, 5}, {-2, 0, 3, 5}, {-1, 0, 3, 4});
@@ -218,7 +225,7 @@ TEST(CastRays, ATerraceIsNoRoom) {
   weights.wall_right[facade] = cube.weights.wall_right[facade];
   const DataTerms t = cast_rays(cube.complex, weights, {});
   EXPECT_LT(t.beta[cube.room], 0.5);
-  EXPECT_GT(t.open[cube.room], 0.3);
+  EXPECT_GT(feature(t, "open")[cube.room], 0.3);
 }
 
 TEST(CastRays, ARoomNotEnteredButSeenThroughItsDoorIsEmpty) {
