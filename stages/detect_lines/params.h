@@ -3,6 +3,7 @@
 
 #include <numbers>
 #include <optional>
+#include <string>
 
 namespace roomcut::detect_lines {
 
@@ -13,6 +14,9 @@ struct DetectLinesParams {
   std::optional<double> merge_m;           ///< lines nearer than this are one [m]
   std::optional<double> hough_angle_deg;   ///< accumulator step, as the user writes it [deg]
   std::optional<double> hough_distance_m;  ///< accumulator step [m]
+  bool wider = true;                       ///< 4 and 8 tau and the points' normals are tried after 2 tau
+  std::string votes = "coverage";          ///< "coverage": by covered length; "equal": each fitted line once
+  std::string search = "greedy";           ///< "greedy", or "mean_shift" over the accumulator
   double linearity = 0.1;                  ///< paper: lambda2 / lambda1 below this is a piece of wall
   double vote_window_rad =
       4.0 * std::numbers::pi / 180.0;  ///< a cell votes this far to both sides of its angle

@@ -16,9 +16,8 @@ double quantised(double value) {
 }
 
 /// What is charged of a face of which `omega` was seen.
-double unseen(double omega) {
-  constexpr double kWhole = 0.3;  // of a wall; the paper's 1 gave up walls behind furniture, and glazed ones
-  return std::max(0.0, 1 - omega / kWhole);
+double unseen(double omega, double free_from) {
+  return std::max(0.0, 1 - omega / free_from);
 }
 
 bool is_empty(const std::vector<std::uint8_t>& label, std::int64_t cell) {
@@ -28,7 +27,7 @@ bool is_empty(const std::vector<std::uint8_t>& label, std::int64_t cell) {
 }  // namespace
 
 EnergyTerms energy_terms(const CellComplex& complex, const FaceWeights& weights, const DataTerms& terms,
-                         double mu_m) {
+                         const GraphcutParams& params) {
   if (terms.d_empty.size() != complex.cells() || terms.d_solid.size() != complex.cells() ||
       weights.wall_omega.size() != complex.edges.size() * complex.layers() ||
       weights.level_omega.size() != complex.faces() * complex.levels.size() ||
@@ -49,7 +48,7 @@ EnergyTerms energy_terms(const CellComplex& complex, const FaceWeights& weights,
     const double omega = face.wall ? weights.wall_omega[face.index] : weights.level_omega[face.index];
     const double implied = face.wall ? terms.wall_implied[face.index] : terms.level_implied[face.index];
     (face.wall ? energy.wall : energy.level)[face.index] =
-        quantised(mu_m * unseen(omega) * (1.0 - implied) * face.area);
+        quantised(params.mu_m * unseen(omega, params.free_from) * (1.0 - implied) * face.area);
   });
   return energy;
 }

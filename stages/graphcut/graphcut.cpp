@@ -71,7 +71,7 @@ void rate_cells(const CellComplex& complex, const EnergyTerms& energy, const Dat
 
 Graphcut graphcut(const CellComplex& complex, const FaceWeights& weights, const DataTerms& terms,
                   const GraphcutParams& params) {
-  const EnergyTerms energy = energy_terms(complex, weights, terms, params.mu_m);
+  const EnergyTerms energy = energy_terms(complex, weights, terms, params);
   const Cut cut = minimum_cut(complex, energy);
   const ManifoldCheck check(complex);
   Repair repair = repair_labels(check, energy, cut.label);

@@ -6,6 +6,7 @@ namespace roomcut::graphcut {
 /// Parameters of graphcut (names, units, ranges and meanings: graphcut_parameters() in main.cpp).
 struct GraphcutParams {
   double mu_m = 0.3;
+  double free_from = 0.3;
   double min_observed = 0.1;
 };
 

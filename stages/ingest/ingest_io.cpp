@@ -133,6 +133,8 @@ ParameterTable ingest_parameters(IngestParams& params) {
              "A plane is a wall when |nz| of its normal is below"),
       number("level_min_nz", params.level_min_nz, "1", 0.7, 0.999,
              "A plane is a floor or ceiling when |nz| of its normal is above"),
+      boolean("drop_ghosts", params.drop_ghosts,
+              "Sparse points far from the building, from mirrors, glass and the sky, are left out."),
       number("planar_ratio", params.planar_ratio, "1", 0.05, 0.9,
              "Points lie on a plane when their smallest variance is below this share of the middle one")};
 }

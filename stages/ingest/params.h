@@ -10,6 +10,7 @@ struct IngestParams {
   double level_min_nz = 0.92;  ///< and level when |nz| is above this
   double planar_ratio =
       0.5;  ///< a neighbourhood is a plane when its two smallest variances differ by this factor
+  bool drop_ghosts = true;  ///< sparse points far from the building are left out
 };
 
 }  // namespace roomcut::ingest

@@ -61,16 +61,17 @@ Vec3 middle_of(const CellComplex& complex, std::size_t face, std::size_t layer) 
 }
 
 RayStart ray_from(const CellComplex& complex, const FaceWalk& walk, std::size_t face, std::size_t layer,
-                  const RaySequence& sequence, std::size_t ray) {
+                  const RaySequence& sequence, const RayRules& rules, std::size_t ray) {
   // Every other ray is level: it still counts walls where floor or ceiling was not seen.
-  const bool level = ray % 2 == 0;
-  const auto number = [&](std::size_t k) { return sequence.number(ray / 2, k); };
-  const Vec2 p = walk.point_in(face, number(0), number(1));
-  const double z = complex.levels[layer] + number(2) * complex.height(layer);
+  const bool level = rules.level && ray % 2 == 0;
+  const auto number = [&](std::size_t k) { return sequence.number(rules.level ? ray / 2 : ray, k); };
   const double azimuth = 2 * std::numbers::pi * number(3);
   const double up = level ? 0.0 : 2 * number(4) - 1;
   const double flat = std::sqrt(1 - up * up);
-  return {{p.x(), p.y(), z}, {flat * std::cos(azimuth), flat * std::sin(azimuth), up}};
+  const Vec3 direction{flat * std::cos(azimuth), flat * std::sin(azimuth), up};
+  if (rules.from_centre) return {middle_of(complex, face, layer), direction};
+  const Vec2 p = walk.point_in(face, number(0), number(1));
+  return {{p.x(), p.y(), complex.levels[layer] + number(2) * complex.height(layer)}, direction};
 }
 
 /// Covered area of the cell's own faces that shows it its front (.first) or its back (.second).
@@ -171,7 +172,7 @@ void look_around(const CellComplex& complex, const FaceWalk& walk, std::size_t f
   int level = 0;
   int counted = 0;
   for (int r = 0; r < rays; ++r) {
-    const RayStart start = ray_from(complex, walk, face, layer, sequence, static_cast<std::size_t>(r));
+    const RayStart start = ray_from(complex, walk, face, layer, sequence, rules, static_cast<std::size_t>(r));
     const bool is_level = start.direction.z() == 0;
     const bool to_the_end = rules.parity || std::abs(start.direction.z()) > kRising;
     walk.follow({start.origin, start.direction, face, layer}, scratch, kNoLimit, to_the_end ? 0 : kOpaque);

@@ -76,16 +76,16 @@ DataTerms cast_rays(const CellComplex& complex, const FaceWeights& weights, cons
   terms.reset(complex);
   const FaceWalk walk(complex, weights);
   const bool parity = params.evidence == "parity";
-  if (!parity) {
+  if (params.implied_faces && !parity) {
     add_implied_faces(complex, walk, terms);
   }
+  const RayRules rules{params.rays, parity, params.origins == "centre", params.level_rays};
   const std::vector<double> carved = carve_lines_of_sight(complex, walk, weights.stations);
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, cells, 16), [&](const tbb::blocked_range<std::size_t>& range) {
         std::vector<Crossing> scratch;
         for (std::size_t c = range.begin(); c < range.end(); ++c) {
-          CellEvidence e =
-              gather_evidence(complex, weights, walk, c % faces, c / faces, {params.rays, parity}, scratch);
+          CellEvidence e = gather_evidence(complex, weights, walk, c % faces, c / faces, rules, scratch);
           e.carved = carved[c];
           store(e, c, terms);
           const double beta = parity ? sigmoid(10 * (e.kappa - 0.5)) : sigmoid(empty_log_odds(e));

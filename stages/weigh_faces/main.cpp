@@ -24,6 +24,17 @@ ParameterTable parameters(WeighFacesParams& p) {
       number("top_share", p.top_share, "1", 0.0, 1.0,
              "A wall also counts by this top share of its height alone, which furniture leaves free; 0 = "
              "never."),
+      choice(
+          "wall_bins", p.wall_bins, {"face", "edge"},
+          "face: bins lie on a wall's face; edge: the paper's, along its edge in plan, whatever the height."),
+      boolean("correct_density", p.correct_density,
+              "Occupied bins also stand for those that a thin sample missed; false: bins are counted."),
+      boolean("seen_through", p.seen_through,
+              "Walls that were seen through the openings of another one lose coverage."),
+      boolean("continue_walls", p.continue_walls,
+              "Wall faces too small to be hit take the coverage of the face above or below."),
+      boolean("slopes", p.slopes, "Points of sloped surfaces cover levels like ceilings."),
+      boolean("sides", p.sides, "Find out which side of each face is empty; false: both alike, a half each."),
   };
 }
 

@@ -89,9 +89,10 @@ TEST(Graphcut, MoreWeightOnTheSurfaceNeverMakesItLarger) {
   const CellComplex complex = random_complex(8, 20, 3);
   double last = 1e300;
   for (const double mu : {0.01, 0.03, 0.1, 0.2}) {
-    const EnergyTerms unit = energy_terms(complex, random_weights(complex, 8), random_terms(complex, 8), 1.0);
-    const Cut cut =
-        minimum_cut(complex, energy_terms(complex, random_weights(complex, 8), random_terms(complex, 8), mu));
+    const EnergyTerms unit =
+        energy_terms(complex, random_weights(complex, 8), random_terms(complex, 8), {1.0});
+    const Cut cut = minimum_cut(
+        complex, energy_terms(complex, random_weights(complex, 8), random_terms(complex, 8), {mu}));
     const double surface = energy_of(complex, unit, cut.label).boundary_m3;
     EXPECT_LE(surface, last + 1e-6);
     last = surface;
