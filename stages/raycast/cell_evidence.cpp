@@ -173,7 +173,8 @@ void look_around(const CellComplex& complex, const FaceWalk& walk, std::size_t f
   int counted = 0;
   for (int r = 0; r < rays; ++r) {
     const RayStart start = ray_from(complex, walk, face, layer, sequence, rules, static_cast<std::size_t>(r));
-    const bool is_level = start.direction.z() == 0;
+    // Without level rays those that hardly rise or fall tell how open a cell is.
+    const bool is_level = std::abs(start.direction.z()) <= (rules.level ? 0 : kRising);
     const bool to_the_end = rules.parity || std::abs(start.direction.z()) > kRising;
     walk.follow({start.origin, start.direction, face, layer}, scratch, kNoLimit, to_the_end ? 0 : kOpaque);
     if (to_the_end) {
@@ -191,6 +192,7 @@ void look_around(const CellComplex& complex, const FaceWalk& walk, std::size_t f
       evidence.sky += hit.nothing();
     }
   }
+  if (level == 0) evidence.level.front = 1;  // none was asked: no sign of an opening
   FirstHit mean;
   mean.add(evidence.level, 1.0 / std::max(1, level));
   evidence.level = mean;

@@ -49,6 +49,22 @@ TEST(Switches, WithoutLevelRaysTwiceAsManySeeTheFloor) {
   EXPECT_NEAR(kappa({}, params), 2 * half, 0.01);
 }
 
+TEST(Switches, WithoutLevelRaysAClosedRoomIsNotTakenForAnOpenPlace) {
+  const CellComplex complex = grid_complex({-2, 0, 4, 6}, {-2, 0, 4, 6}, {-1, 0, 2.5, 4});
+  std::vector<bool> empty(complex.cells(), false);
+  const std::size_t room = complex.cell(4, 1);
+  empty[room] = true;
+  const FaceWeights weights = weights_of(complex, empty);
+  RaycastParams params;
+  params.level_rays = false;
+  for (const int rays : {2, 64}) {
+    params.rays = rays;
+    const DataTerms terms = cast_rays(complex, weights, params);
+    EXPECT_NEAR(terms.open[room], 0, 1e-6) << rays;
+    EXPECT_GT(terms.beta[room], 0.95) << rays;
+  }
+}
+
 TEST(Switches, WithoutImpliedFacesNoUnseenSideIsFree) {
   // A room whose wall of 10 cm at x = 4 was seen from inside only.
   const CellComplex complex = grid_complex({0, 4, 4.1, 6}, {0, 4}, {0, 2.5});
