@@ -26,14 +26,11 @@ Exit leave_face(const CellComplex& complex, std::int32_t face, const Vec2& from,
   constexpr double kBeside = 1e-9;  // of an edge's length: two edges of one side share their corner
   Exit best;
   best.distance = std::numeric_limits<double>::infinity();
-  const auto first = complex.face_offset[static_cast<std::size_t>(face)];
-  const auto last = complex.face_offset[static_cast<std::size_t>(face) + 1];
-  for (auto i = first; i < last; ++i) {
-    const auto next = i + 1 == last ? first : i + 1;
-    const Vec2& p =
-        complex.vertices[static_cast<std::size_t>(complex.face_vertex[static_cast<std::size_t>(i)])];
-    const Vec2 side =
-        complex.vertices[static_cast<std::size_t>(complex.face_vertex[static_cast<std::size_t>(next)])] - p;
+  const auto f = static_cast<std::size_t>(face);
+  const FaceCorners corners = complex.corners(f);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec2& p = corners[i];
+    const Vec2 side = corners.after(i) - p;
     const double outwards = side.y() * direction.x() - side.x() * direction.y();
     if (outwards <= kAlong) {
       continue;
@@ -42,7 +39,7 @@ Exit leave_face(const CellComplex& complex, std::int32_t face, const Vec2& from,
     const double distance = (side.y() * arm.x() - side.x() * arm.y()) / outwards;
     const double u = (direction.y() * arm.x() - direction.x() * arm.y()) / outwards;
     if (u >= -kBeside && u <= 1 + kBeside && distance < best.distance) {
-      best = {complex.face_edge[static_cast<std::size_t>(i)], distance};
+      best = {complex.edges_of(f)[i], distance};
     }
   }
   return best;
@@ -73,10 +70,7 @@ class Walker {
   }
 
  private:
-  bool empty(std::int32_t face, std::size_t layer) const {
-    return label_[complex_.cell(static_cast<std::size_t>(face), layer)] ==
-           static_cast<std::uint8_t>(Label::kEmpty);
-  }
+  bool empty(std::int32_t face, std::size_t layer) const { return is_empty(complex_, label_, face, layer); }
 
   /// From the room `outer` through the face `inner` behind the edge, towards side · normal.
   void walk_edge(const CellComplex::Edge& edge, const Line2& line, std::int32_t outer, std::int32_t inner,
@@ -108,7 +102,7 @@ class Walker {
         return;
       }
       const CellComplex::Edge& edge = complex_.edges[static_cast<std::size_t>(exit.edge)];
-      face = edge.left == face ? edge.right : edge.left;
+      face = edge.across(face);
       if (face < 0) {
         return;
       }

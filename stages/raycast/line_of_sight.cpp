@@ -96,7 +96,7 @@ std::vector<double> carve_lines_of_sight(const CellComplex& complex, const FaceW
   std::vector<double> unseen(complex.cells(), 1);
   for (const std::vector<double>& of_station : volume) {
     for (std::size_t c = 0; c < of_station.size(); ++c) {
-      const double whole = complex.area(c % complex.faces()) * complex.height(c / complex.faces());
+      const double whole = complex.volume(c);
       unseen[c] *= std::max(0.0, 1 - of_station[c] / whole);
     }
   }

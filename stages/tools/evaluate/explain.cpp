@@ -4,7 +4,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -172,7 +171,7 @@ double Comparison::iou(const std::vector<std::uint8_t>& label) const {
   double common = 0;
   double extra = 0;
   for (std::size_t cell = 0; cell < label.size(); ++cell) {
-    if (label[cell] != 0) {
+    if (is_empty(label, cell)) {
       common += cell_truth_m3_[cell];
       extra += cell_m3_[cell] - cell_truth_m3_[cell];
     }
@@ -228,7 +227,7 @@ void Comparison::judge_cell(const Column& column, std::size_t layer, const std::
   const std::size_t cell = complex_.cell(static_cast<std::size_t>(column.face), layer);
   const double lo = complex_.levels[layer];
   const double hi = complex_.levels[layer + 1];
-  const bool empty = input_.label[cell] != 0;
+  const bool empty = is_empty(input_.label, cell);
   std::vector<Interval> inside;
   clip(column.parts, lo, hi, inside);
   std::vector<Interval> wrong = inside;
@@ -344,11 +343,9 @@ Explanation Comparison::run() {
   Explanation out;
   out.bound_iou = iou(truth_label_);
   out.labels_iou = iou(input_.label);
-  const std::size_t faces = complex_.faces();
-  assert(faces > 0);
   for (std::size_t cell = 0; cell < complex_.cells(); ++cell) {
-    if (input_.label[cell] != 0) {
-      out.empty_m3 += complex_.area(cell % faces) * complex_.height(cell / faces);
+    if (is_empty(input_.label, cell)) {
+      out.empty_m3 += complex_.volume(cell);
     }
   }
   const double area = spacing_ * spacing_;
