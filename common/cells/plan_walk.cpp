@@ -1,19 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/cells/plan_walk.h"
 
-#include <limits>
-
 namespace roomcut {
-namespace {
 
-struct Exit {
-  std::int32_t edge = -1;
-  double distance = std::numeric_limits<double>::infinity();
-};
-
-/// Where the way from `start` to `to` leaves the face: by the side whose ends lie right and left of it. Of
-/// sides on one line the distances are equal; their ends tell them apart.
-Exit exit_of(const CellComplex& complex, std::size_t face, const Vec2& start, const Vec2& to) {
+FaceExit leave_face(const CellComplex& complex, std::size_t face, const Vec2& start, const Vec2& to) {
   const FaceCorners corners = complex.corners(face);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vec2 a = corners[i] - start;
@@ -27,8 +17,6 @@ Exit exit_of(const CellComplex& complex, std::size_t face, const Vec2& start, co
   return {};
 }
 
-}  // namespace
-
 std::int32_t walk_beside(const CellComplex& complex, std::size_t edge, bool left, double distance_m,
                          const std::function<void(std::size_t, bool)>& crossed) {
   const CellComplex::Edge& e = complex.edges[edge];
@@ -39,7 +27,7 @@ std::int32_t walk_beside(const CellComplex& complex, std::size_t edge, bool left
   std::int32_t face = left ? e.left : e.right;
   // Every step crosses another edge; rounding at a sliver may not send the walk around for ever.
   for (std::size_t step = 0; face >= 0 && step < complex.edges.size(); ++step) {
-    const Exit exit = exit_of(complex, static_cast<std::size_t>(face), start, to);
+    const FaceExit exit = leave_face(complex, static_cast<std::size_t>(face), start, to);
     if (exit.edge < 0 || exit.distance >= distance_m) {
       return face;
     }

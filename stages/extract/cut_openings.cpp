@@ -7,6 +7,7 @@
 #include <set>
 #include <tuple>
 
+#include "common/cells/face_locator.h"
 #include "common/cells/interfaces.h"
 #include "common/cells/manifold_check.h"
 #include "stages/extract/plan_cutter.h"
@@ -284,11 +285,12 @@ OpenableComplex cut_openings(const CellComplex& complex, const Labels& labels,
   OpenableComplex result{cutter.result(parent), {}, {}, {}};
   const std::vector<std::size_t> layer_of = add_levels(result.complex, openings);
   result.labels = inherited(labels, complex, result.complex, parent, layer_of);
+  const FaceLocator locator(result.complex);
   Opener opener(result.complex, result.labels);
   for (const Opening& opening : openings) {
     Passage passage;
     const std::string why =
-        opener.try_open(opening, cutter.locate(0.5 * (opening.jamb_a + opening.jamb_b)), passage);
+        opener.try_open(opening, locator.face_at(0.5 * (opening.jamb_a + opening.jamb_b)), passage);
     if (why.empty()) {
       result.passages.push_back(std::move(passage));
     } else {

@@ -27,20 +27,17 @@ class LostWallBuilder {
   void add(const ThinWallScores::LostPlace& place) {
     wall_.area_m2 += place.area_m2;
     level_m2_ += place.wall ? 0 : place.area_m2;
-    const CellComplex& complex = input_.complex;
-    const std::int32_t face = locator_.face_at(place.middle.x(), place.middle.y());
-    const auto above = std::upper_bound(complex.levels.begin(), complex.levels.end(), place.middle.z());
-    if (face < 0 || above == complex.levels.begin() || above == complex.levels.end()) {
+    const std::int64_t at = locator_.cell_at(place.middle);
+    if (at < 0) {
       return;
     }
-    const auto layer = static_cast<std::size_t>(above - complex.levels.begin()) - 1;
-    const std::size_t cell = complex.cell(static_cast<std::size_t>(face), layer);
-    if (truth_label_[cell] != 0) {
+    const auto cell = static_cast<std::size_t>(at);
+    if (is_empty(truth_label_, cell)) {
       wall_.no_cell_m2 += place.area_m2;
       return;
     }
     cells_.push_back(cell);
-    name_lines(static_cast<std::size_t>(face), place);
+    name_lines(input_.complex.face_of(cell), place);
   }
 
   Explanation::LostWall finish() {
