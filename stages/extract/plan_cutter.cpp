@@ -18,9 +18,9 @@ double cross(const Vec2& a, const Vec2& b) {
 PlanCutter::PlanCutter(const CellComplex& complex) : complex_(complex), loops_(complex.faces()) {
   for (std::size_t f = 0; f < loops_.size(); ++f) {
     parent_.push_back(static_cast<std::int32_t>(f));
-    for (auto i = complex.face_offset[f]; i < complex.face_offset[f + 1]; ++i) {
-      loops_[f].push_back(
-          {complex.face_vertex[static_cast<std::size_t>(i)], complex.face_edge[static_cast<std::size_t>(i)]});
+    const auto vertices = complex.vertices_of(f);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      loops_[f].push_back({vertices[i], complex.edges_of(f)[i]});
     }
   }
 }
