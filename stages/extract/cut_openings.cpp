@@ -5,25 +5,16 @@
 #include <cmath>
 #include <optional>
 #include <set>
-#include <tuple>
 
 #include "common/cells/face_locator.h"
 #include "common/cells/interfaces.h"
 #include "common/cells/manifold_check.h"
-#include "stages/extract/plan_cutter.h"
+#include "stages/extract/cut_jambs.h"
 
 namespace roomcut::extract {
 
 namespace {
 
-std::optional<std::int32_t> line_index(const CellComplex& complex, const std::string& wall_id) {
-  for (std::size_t i = 0; i < complex.lines.size(); ++i) {
-    if (complex.lines[i].wall_id == wall_id) {
-      return static_cast<std::int32_t>(i);
-    }
-  }
-  return std::nullopt;
-}
 
 /// The level nearest to z when it is within kPlanSnap_m, else none.
 std::optional<std::size_t> level_at(const std::vector<double>& levels, double z) {
@@ -52,25 +43,6 @@ std::vector<std::size_t> add_levels(CellComplex& complex, const std::vector<Open
   return layer_of;
 }
 
-struct Jamb {
-  Line2 line;
-  double t0, t1;  // where it meets the wall's two faces, ascending
-};
-
-/// The jamb through `at`, across the opening, from face to face of the wall. None where they are not across.
-std::optional<Jamb> jamb_of(const Opening& opening, const Vec2& at, const Line2& a, const Line2& b) {
-  const Vec2 along = (opening.jamb_b - opening.jamb_a).normalized();
-  const Vec2 across(-along.y(), along.x());
-  const auto foot = [&](const Line2& face) -> Vec2 {
-    return at - face.distance(at) / face.normal().dot(across) * across;
-  };
-  if (std::abs(a.normal().dot(across)) < 0.5 || std::abs(b.normal().dot(across)) < 0.5 ||
-      (foot(a) - foot(b)).norm() < 10 * kPlanSnap_m) {
-    return std::nullopt;
-  }
-  Jamb jamb{line_through(foot(a), foot(b)), 0, 0};
-  std::tie(jamb.t0, jamb.t1) = std::minmax({jamb.line.along(foot(a)), jamb.line.along(foot(b))});
-  return jamb;
 }
 
 /// Tries the openings on the refined complex. Closes in `closed` what the cut had emptied of an accepted one.
@@ -254,24 +226,6 @@ Labels inherited(const Labels& labels, const CellComplex& old, const CellComplex
   return result;
 }
 
-void cut_jambs(PlanCutter& cutter, const CellComplex& complex, const std::vector<Opening>& openings) {
-  for (const Opening& opening : openings) {
-    const auto a = line_index(complex, opening.wall_a);
-    const auto b = line_index(complex, opening.wall_b);
-    if (!a || !b) {
-      continue;
-    }
-    const Line2& face_a = complex.lines[static_cast<std::size_t>(*a)].line;
-    const Line2& face_b = complex.lines[static_cast<std::size_t>(*b)].line;
-    const auto first = jamb_of(opening, opening.jamb_a, face_a, face_b);
-    const auto second = jamb_of(opening, opening.jamb_b, face_a, face_b);
-    if (first && second) {
-      cutter.cut(first->line, first->t0, first->t1, opening.id + ".a");
-      cutter.cut(second->line, second->t0, second->t1, opening.id + ".b");
-    }
-  }
-}
-
 }  // namespace
 
 OpenableComplex cut_openings(const CellComplex& complex, const Labels& labels,
@@ -279,10 +233,8 @@ OpenableComplex cut_openings(const CellComplex& complex, const Labels& labels,
   if (openings.empty()) {
     return {complex, labels, {}, {}};
   }
-  PlanCutter cutter(complex);
-  cut_jambs(cutter, complex, openings);
   std::vector<std::int32_t> parent;
-  OpenableComplex result{cutter.result(parent), {}, {}, {}};
+  OpenableComplex result{with_jambs(complex, openings, parent), {}, {}, {}};
   const std::vector<std::size_t> layer_of = add_levels(result.complex, openings);
   result.labels = inherited(labels, complex, result.complex, parent, layer_of);
   const FaceLocator locator(result.complex);

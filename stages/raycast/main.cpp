@@ -8,22 +8,6 @@ namespace {
 using namespace roomcut;
 using namespace roomcut::raycast;
 
-ParameterTable parameters(RaycastParams& p) {
-  return {
-      integer("rays", p.rays, "1", 2, 4096, "Rays per cell."),
-      choice("evidence", p.evidence, {"combined", "parity"},
-             "combined: all evidences; parity: the paper's share of odd rays alone."),
-      choice("origins", p.origins, {"spread", "centre"},
-             "Where a cell's rays begin: spread over it, or at its centre as the paper's."),
-      boolean("level_rays", p.level_rays,
-              "Half of the rays are level; false: all are uniform on the sphere."),
-      boolean("implied_faces", p.implied_faces,
-              "The unseen other side of a wall or slab costs graphcut nothing; never with parity."),
-      number("surface_depth_m", p.surface_depth_m, "m", 0.0, 10.0,
-             "Volume per square metre with which a cell's own covered faces say on which side it is."),
-  };
-}
-
 void body(StageRun& run, const RaycastParams& params) {
   const CellsFile cells = read_cells(run.input("cells"));
   const FaceWeights weights = read_weights(run.input("weights"), cells);

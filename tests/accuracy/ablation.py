@@ -112,8 +112,8 @@ class Results:
 
 
 def run_variant(build, chosen, values, known, default, pool):
-    """Figures of the scenes that are not known yet."""
-    todo = [scene for scene in chosen if scene["name"] not in known]
+    """Figures of the scenes that are not known yet; a failure is no figure, and is tried again."""
+    todo = [scene for scene in chosen if "error" in known.get(scene["name"], {"error": ""})]
     rows = pool.map(lambda scene: measure(build, scene, values, default.get(scene["name"])), todo)
     for scene, row in zip(todo, rows):
         known[scene["name"]] = row
