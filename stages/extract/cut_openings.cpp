@@ -43,8 +43,6 @@ std::vector<std::size_t> add_levels(CellComplex& complex, const std::vector<Open
   return layer_of;
 }
 
-}
-
 /// Tries the openings on the refined complex. Closes in `closed` what the cut had emptied of an accepted one.
 class Opener {
  public:
