@@ -14,12 +14,13 @@ import shutil
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
+import ablation_table
 import scene_run
 import scenes
+from ablation_table import ALL, DEFAULT
 from accuracy import DATA, PRESETS, ROOT, SOURCE, fail
 
 PRESET = os.path.join(PRESETS, "paper_2013.yaml")
-DEFAULT, ALL = "default", "all"
 USUAL = "virtual *_1"
 # Values of the paper that belong to another line, and are no addition.
 GOES_WITH = {"detect_lines.search": ["detect_lines.min_support_m"]}
@@ -119,44 +120,6 @@ def run_variant(build, chosen, values, known, default, pool):
         known[scene["name"]] = row
 
 
-def figures(rows):
-    """Mean IoU (a failed scene counts 0), rooms missed and merged; `failed` scenes miss all of their rooms."""
-    return {"iou": sum(row.get("iou", 0) for row in rows) / len(rows), "missed": sum(row.get("missed", row.get("rooms", 0)) for row in rows),
-            "merged": sum(row.get("merged", 0) for row in rows), "failed": sum("error" in row for row in rows)}
-
-
-def cell(row, default):
-    """Difference of IoU in thousandths, and the rooms more or fewer that are missed and merged."""
-    parts = [f"{1000 * (row['iou'] - default['iou']):+.1f}"]
-    parts += [f"{row[key] - default[key]:+d} {key}" for key in ("missed", "merged") if row[key] != default[key]]
-    return ", ".join(parts + ([f"{row['failed']} failed"] if row["failed"] else []))
-
-
-def markdown(chosen, content, names):
-    """One row per switch, one column per group; the last column is over all scenes."""
-    groups = dict.fromkeys(scene["group"] for scene in chosen)
-    members = {group: [scene["name"] for scene in chosen if scene["group"] == group] for group in groups}
-    members["all"] = [scene["name"] for scene in chosen]
-
-    def of(variant):
-        default = content[DEFAULT]["scenes"]
-        rows = {name: row if "error" not in row else {**row, "missed": default[name].get("rooms", 0)}
-                for name, row in content[variant]["scenes"].items()}
-        return {group: figures([rows[name] for name in scene_names]) for group, scene_names in members.items()}
-
-    default = of(DEFAULT)
-    lines = [f"| switch | {' | '.join(f'{group} ({len(names_)})' for group, names_ in members.items())} |", "|---" * (len(members) + 1) + "|"]
-    plain = lambda row: f"{row['iou']:.4f}, {row['missed']} missed, {row['merged']} merged"  # noqa: E731
-    lines.append("| **default** | " + " | ".join(plain(default[group]) for group in members) + " |")
-    for name in names:
-        if name == DEFAULT or any(scene not in content.get(name, {"scenes": {}})["scenes"] for scene in members["all"]):
-            continue
-        row = of(name)
-        label = f"`{content[name]['parameters'].splitlines()[1].strip()}` ({name.split('.')[0]})" if name != ALL else "**all: the paper**"
-        lines.append(f"| {label} | " + " | ".join(cell(row[group], default[group]) for group in members) + " |")
-    return "\n".join(lines)
-
-
 def main():
     build = os.path.abspath(sys.argv[1])
     every = variants(read_preset(PRESET))
@@ -176,10 +139,10 @@ def main():
             known = results.of(name, every[name])
             run_variant(build, chosen, every[name], known, default, pool)
             results.save()
-            total = figures([known[scene["name"]] for scene in chosen])
+            total = ablation_table.figures([known[scene["name"]] for scene in chosen])
             print(f"[{i + 1}/{len(names)}] {name}: IoU {total['iou']:.4f}, missed {total['missed']}, merged {total['merged']}, failed {total['failed']}",
                   file=sys.stderr, flush=True)
-    print(markdown(chosen, results.content, names))
+    print(ablation_table.markdown(chosen, results.content, names))
 
 
 if __name__ == "__main__":

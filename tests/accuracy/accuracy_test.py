@@ -14,6 +14,7 @@ import unittest
 import jsonschema
 
 import ablation
+import ablation_table
 import scenes
 import table
 
@@ -113,9 +114,12 @@ class Switches(unittest.TestCase):
         good = {"iou": 0.9, "rooms": 4, "missed": 0, "merged": 1}
         content = {"default": {"parameters": "", "scenes": {"a": good, "b": good}},
                    "x.y": {"parameters": "x:\n  y: 0\n", "scenes": {"a": {**good, "iou": 0.88, "merged": 3}, "b": {"error": "N03"}}}}
-        text = ablation.markdown(chosen, content, ["default", "x.y"]).splitlines()
+        text = ablation_table.markdown(chosen, content, ["default", "x.y", "not measured"]).splitlines()
         self.assertEqual(text[2], "| **default** | 0.9000, 0 missed, 1 merged | 0.9000, 0 missed, 1 merged | 0.9000, 0 missed, 2 merged |")
-        self.assertEqual(text[3], "| `y: 0` (x) | -20.0, +2 merged | -900.0, +4 missed, -1 merged, 1 failed | -460.0, +4 missed, +1 merged, 1 failed |")
+        self.assertEqual(text[3], "| `x: y: 0` | -20.0, +2 merged | -900.0, +4 missed, -1 merged, 1 failed | -460.0, +4 missed, +1 merged, 1 failed |")
+        del content["x.y"]["scenes"]["b"]
+        text = ablation_table.markdown(chosen, content, ["default", "x.y"]).splitlines()
+        self.assertEqual(text[3], "| `x: y: 0` | -20.0, +2 merged | – | – |")
 
 
 class Run(unittest.TestCase):
@@ -177,7 +181,7 @@ class Run(unittest.TestCase):
             environment = {**os.environ, "ROOT": folder, "ONLY": "closed_house_1", "SWITCHES": "raycast.evidence ingest.drop_ghosts"}
             done = subprocess.run(command, capture_output=True, text=True, env=environment, check=False)
             self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertIn("| `evidence: parity` (raycast) |", done.stdout)
+            self.assertIn("| `raycast: evidence: parity` |", done.stdout)
             with open(os.path.join(folder, "ablation.json"), encoding="utf-8") as text:
                 result = {name: variant["scenes"]["closed_house_1"] for name, variant in json.load(text).items()}
             self.assertLess(result["raycast.evidence"]["iou"], result["default"]["iou"])
