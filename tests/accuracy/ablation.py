@@ -22,8 +22,8 @@ from accuracy import DATA, PRESETS, ROOT, SOURCE, fail
 
 PRESET = os.path.join(PRESETS, "paper_2013.yaml")
 USUAL = "virtual *_1"
-# Values of the paper that belong to another line, and are no addition.
-GOES_WITH = {"detect_lines.search": ["detect_lines.min_support_m"]}
+# Values that belong to another line, and are no addition.
+GOES_WITH = {"detect_lines.search": ["detect_lines.min_support_m"], "weigh_faces.correct_density": ["weigh_faces.tau_m"]}
 # Only volumes and rooms are looked at: coarser samples of the surface do.
 COARSE = ["--set", "sample_spacing_m=0.3", "--set", "column_spacing_m=0.05"]
 
