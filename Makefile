@@ -25,7 +25,7 @@ generator = $$(command -v ninja > /dev/null && echo "-G Ninja")
 quiet_make = env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL
 pipeline = +@sh stages/pipeline.sh
 
-.PHONY: help deps configured build programs test demo run status verify view edit-lines diff-lines drop-edit layers evaluate compare accuracy accuracy-walls accuracy-weights bench fuzz robustness tidy format ready \
+.PHONY: help deps configured build programs pipeline_programs parameters test demo run status verify view edit-lines diff-lines drop-edit layers evaluate compare accuracy accuracy-walls accuracy-weights bench fuzz robustness tidy format ready ready_tools \
         $(stages) $(stages:%=rerun-%) $(stages:%=clean-%) $(stages:%=plot-%)
 
 help:
@@ -45,6 +45,7 @@ help:
 	'make diff-lines | drop-edit   what the edit changes | move it aside' \
 	'make compare A=… B=…          two work folders side by side: parameters, lines, rooms, models; a page and JSON' \
 	'make report | evaluate TRUTH=truth.off | bench | tidy | format' \
+	'make parameters               after a change of parameters: pipeline.yaml, its JSON Schema, the tables of the READMEs' \
 	'make accuracy                 scores of scenes with known truth, in one table; ONLY="virtual uniform_house_*" some of' \
 	'                              them, BASE=old.json what changed since, OUT=file the JSON (work/accuracy/accuracy.json)' \
 	'make accuracy-walls           errors of walls and heights beside their stated sigmas; ONLY="uniform_3mm …", OUT=file' \
@@ -73,18 +74,27 @@ configured: deps
 build: configured
 	@cmake --build "$$BUILD"
 
-# Without the tests, which are more than a quarter of a build.
-programs: configured
-	@cmake --build "$$BUILD" --target programs
+# Without the tests, which are more than a quarter of a build; and of the programs only those of pipeline.table, which make a model.
+programs pipeline_programs: configured
+	@cmake --build "$$BUILD" --target $@
+
+# What is made from the parameters as the programs describe them (contract_pipeline_yaml compares).
+parameters: programs
+	@sh stages/pipeline_yaml.sh "$$BUILD" > pipeline.yaml.tmp && mv pipeline.yaml.tmp pipeline.yaml
+	@python3 stages/pipeline_schema.py "$$BUILD" > schemas/pipeline.schema.tmp && mv schemas/pipeline.schema.tmp schemas/pipeline.schema.json
+	@python3 stages/parameter_tables.py "$$BUILD"
 
 test: build
 	@$(quiet_make) ctest --test-dir "$$BUILD" --output-on-failure -j "$$(nproc)"
 
-# The programs, built when there are none yet. After a change of the sources: make build.
+# What a command runs, built when it is not there yet. After a change of the sources: make build.
 ready:
-	@if [ ! -x "$$BUILD/bin/report" ] || [ ! -x "$$BUILD/bin/artefact" ]; then $(MAKE) programs; fi
+	@[ -x "$$BUILD/bin/report" ] && [ -x "$$BUILD/bin/artefact" ] || $(MAKE) pipeline_programs
+ready_tools: ready
+	@[ -x "$$BUILD/bin/view" ] && [ -x "$$BUILD/bin/compare" ] && [ -x "$$BUILD/bin/diff_lines" ] || $(MAKE) programs
+view compare diff-lines: ready_tools
 
-demo: programs
+demo: pipeline_programs
 	@mkdir -p work/demo
 	@"$$BUILD/bin/synthesize" --scene tests/data/scenes/paper_two_storeys.json --scan-out work/demo/scan.ply \
 	  --truth-out work/demo/truth.off --truth-json work/demo/truth.json

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "common/cells/face_locator.h"
 #include "common/plan/plan_complex.h"
 #include "common/plan/segment_inserter.h"
 
@@ -39,33 +40,16 @@ std::optional<std::int32_t> line_index(const CellComplex& complex, const std::st
   return std::nullopt;
 }
 
-std::int32_t face_at(const CellComplex& complex, const Vec2& p) {
-  for (std::size_t face = 0; face < complex.faces(); ++face) {
-    const std::int64_t begin = complex.face_offset[face];
-    const std::int64_t end = complex.face_offset[face + 1];
-    bool inside = true;
-    for (std::int64_t i = begin; inside && i < end; ++i) {
-      const Vec2& a = complex.vertices[complex.face_vertex[i]];
-      const Vec2 along = complex.vertices[complex.face_vertex[i + 1 < end ? i + 1 : begin]] - a;
-      const Vec2 arm = p - a;
-      inside = along.x() * arm.y() - along.y() * arm.x() >= 0;
-    }
-    if (inside) {
-      return static_cast<std::int32_t>(face);
-    }
-  }
-  return -1;
-}
-
 CellComplex with_jambs(const CellComplex& complex, const std::vector<Opening>& openings,
                        std::vector<std::int32_t>& parent) {
   CellComplex result = complex;
   Subdivision plan = plan_of(complex);
   SegmentInserter inserter(plan);
+  const FaceLocator locator(complex);
   const auto cut = [&](const PlanSegment& jamb, const std::string& id) {
     const auto line = static_cast<std::int32_t>(result.lines.size());
     result.lines.push_back({id, jamb.line, jamb.t0, jamb.t1, {}});
-    const std::int32_t face = face_at(complex, jamb.line.at(0.5 * (jamb.t0 + jamb.t1)));
+    const std::int32_t face = locator.face_at(jamb.line.at(0.5 * (jamb.t0 + jamb.t1)));
     if (face >= 0) {
       inserter.insert(jamb, line, face);
     }

@@ -14,9 +14,6 @@ namespace roomcut::extract {
 /// Index of the line of this wall; none when the complex has no such line.
 std::optional<std::int32_t> line_index(const CellComplex& complex, const std::string& wall_id);
 
-/// The face of the plan that contains p, -1 = none; on an edge, the first of its faces.
-std::int32_t face_at(const CellComplex& complex, const Vec2& p);
-
 /// The complex with the openings' jambs cut in, between the two faces of the wall and nowhere else; levels,
 /// frame and the old lines as before, two more lines per opening. Openings whose jambs do not cross their
 /// wall cut nothing. `parent`: per face, the one of the old complex that it is a part of.

@@ -70,5 +70,5 @@ void body(StageRun& run, const ExtractParams& params) {
 
 int main(int argc, char** argv) {
   ExtractParams params;
-  return run_stage(argc, argv, info(), extract_parameters(params), [&](StageRun& run) { body(run, params); });
+  return run_stage(argc, argv, info(), parameters(params), [&](StageRun& run) { body(run, params); });
 }

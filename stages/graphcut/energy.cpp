@@ -21,10 +21,6 @@ double unseen(double omega) {
   return std::max(0.0, 1 - omega / kWhole);
 }
 
-bool is_empty(const std::vector<std::uint8_t>& label, std::int64_t cell) {
-  return cell >= 0 && label[static_cast<std::size_t>(cell)] == static_cast<std::uint8_t>(Label::kEmpty);
-}
-
 }  // namespace
 
 EnergyTerms energy_terms(const CellComplex& complex, const FaceWeights& weights, const DataTerms& terms,
@@ -58,7 +54,7 @@ Energy energy_of(const CellComplex& complex, const EnergyTerms& terms,
                  const std::vector<std::uint8_t>& label) {
   Energy energy;
   for (std::size_t c = 0; c < complex.cells(); ++c) {
-    energy.data_m3 += is_empty(label, static_cast<std::int64_t>(c)) ? terms.d_empty[c] : terms.d_solid[c];
+    energy.data_m3 += is_empty(label, c) ? terms.d_empty[c] : terms.d_solid[c];
   }
   for_each_interface(complex, [&](const Interface& face) {
     if (is_surface(face, label)) {
@@ -70,7 +66,7 @@ Energy energy_of(const CellComplex& complex, const EnergyTerms& terms,
 
 double flip_cost(const CellComplex& complex, const EnergyTerms& terms, const std::vector<std::uint8_t>& label,
                  std::size_t cell) {
-  const bool empty = is_empty(label, static_cast<std::int64_t>(cell));
+  const bool empty = is_empty(label, cell);
   double cost = empty ? terms.d_solid[cell] - terms.d_empty[cell] : terms.d_empty[cell] - terms.d_solid[cell];
   for_each_interface_of(complex, cell, [&](const Interface& face, std::int64_t other) {
     const double term = (face.wall ? terms.wall : terms.level)[face.index];

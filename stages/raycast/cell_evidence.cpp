@@ -55,11 +55,6 @@ class RaySequence {
   std::array<double, kNumbers> step_{}, begin_{};
 };
 
-Vec3 middle_of(const CellComplex& complex, std::size_t face, std::size_t layer) {
-  const Vec2 centre = complex.centroid(face);
-  return {centre.x(), centre.y(), complex.levels[layer] + 0.5 * complex.height(layer)};
-}
-
 RayStart ray_from(const CellComplex& complex, const FaceWalk& walk, std::size_t face, std::size_t layer,
                   const RaySequence& sequence, std::size_t ray) {
   // Every other ray is level: it still counts walls where floor or ceiling was not seen.
@@ -76,9 +71,8 @@ RayStart ray_from(const CellComplex& complex, const FaceWalk& walk, std::size_t 
 /// Covered area of the cell's own faces that shows it its front (.first) or its back (.second).
 void add_own_faces(const CellComplex& complex, const FaceWeights& weights, std::size_t face,
                    std::size_t layer, CellEvidence& evidence) {
-  for (auto i = static_cast<std::size_t>(complex.face_offset[face]);
-       i < static_cast<std::size_t>(complex.face_offset[face + 1]); ++i) {
-    const auto edge = static_cast<std::size_t>(complex.face_edge[i]);
+  for (const std::int32_t side : complex.edges_of(face)) {
+    const auto edge = static_cast<std::size_t>(side);
     const bool is_left = complex.edges[edge].left == static_cast<std::int32_t>(face);
     const std::size_t w = complex.wall_face(edge, layer);
     const double area = complex.length(edge) * complex.height(layer);
@@ -166,7 +160,7 @@ void count_crossings(const std::vector<Crossing>& crossings, CellEvidence& evide
 void look_around(const CellComplex& complex, const FaceWalk& walk, std::size_t face, std::size_t layer,
                  const RayRules& rules, std::vector<Crossing>& scratch, CellEvidence& evidence) {
   const int rays = rules.rays;
-  const RaySequence sequence(middle_of(complex, face, layer));
+  const RaySequence sequence(complex.centre(complex.cell(face, layer)));
   int rising = 0;
   int level = 0;
   int counted = 0;

@@ -5,7 +5,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -70,8 +69,6 @@ void add_implied_faces(const CellComplex& complex, const FaceWalk& walk, DataTer
 
 DataTerms cast_rays(const CellComplex& complex, const FaceWeights& weights, const RaycastParams& params) {
   const std::size_t cells = complex.cells();
-  const std::size_t faces = complex.faces();
-  assert(cells == 0 || faces > 0);
   DataTerms terms;
   terms.reset(complex);
   const FaceWalk walk(complex, weights);
@@ -84,8 +81,8 @@ DataTerms cast_rays(const CellComplex& complex, const FaceWeights& weights, cons
       tbb::blocked_range<std::size_t>(0, cells, 16), [&](const tbb::blocked_range<std::size_t>& range) {
         std::vector<Crossing> scratch;
         for (std::size_t c = range.begin(); c < range.end(); ++c) {
-          CellEvidence e =
-              gather_evidence(complex, weights, walk, c % faces, c / faces, {params.rays, parity}, scratch);
+          CellEvidence e = gather_evidence(complex, weights, walk, complex.face_of(c), complex.layer_of(c),
+                                           {params.rays, parity}, scratch);
           e.carved = carved[c];
           store(e, c, terms);
           const double beta = parity ? sigmoid(10 * (e.kappa - 0.5)) : sigmoid(empty_log_odds(e));

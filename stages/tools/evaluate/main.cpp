@@ -84,6 +84,5 @@ void body(StageRun& run, const EvaluateParams& params) {
 
 int main(int argc, char** argv) {
   EvaluateParams params;
-  return run_stage(argc, argv, info(), evaluate_parameters(params),
-                   [&](StageRun& run) { body(run, params); });
+  return run_stage(argc, argv, info(), parameters(params), [&](StageRun& run) { body(run, params); });
 }

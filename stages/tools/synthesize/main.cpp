@@ -58,10 +58,5 @@ int main(int argc, char** argv) {
                   {"truth-json", "rooms, walls, openings, scanner positions"}};
   info.options = {{"e57", "cartesian", "how an E57 file holds its points", {"cartesian", "spherical"}}};
   SynthesizeParams params;
-  ParameterTable table = {
-      auto_number("points", params.points, "1", 1, 1e10, "Number of points.", "as the scene says"),
-      auto_number("seed", params.seed, "1", 0, 9e15, "Seed of all random numbers.", "as the scene says"),
-      auto_number("noise_m", params.noise_m, "m", 0, 1, "Standard deviation of the noise.",
-                  "as the scene says")};
-  return run_stage(argc, argv, info, std::move(table), [&](StageRun& stage) { run(stage, params); });
+  return run_stage(argc, argv, info, parameters(params), [&](StageRun& stage) { run(stage, params); });
 }

@@ -34,7 +34,7 @@ TEST(Graphcut, OneCubeIsEmptyInsideAndSolidOutside) {
   weights.level_omega.assign(weights.level_omega.size(), 0.285F);
   const Graphcut result = graphcut(complex, weights, terms_of(complex, beta), {});
   EXPECT_EQ(result.empty_cells, 1);
-  EXPECT_EQ(result.labels.label[middle_of(complex)], static_cast<std::uint8_t>(Label::kEmpty));
+  EXPECT_EQ(result.labels.label[middle_of(complex)], Label::kEmpty);
   EXPECT_NEAR(result.empty_m3, 1.0, 1e-12);
   EXPECT_NEAR(result.labels.data_m3, 27 * 0.01, 1e-6);
   EXPECT_NEAR(result.labels.boundary_m3, 6 * 0.3 * 0.05, 1e-6);

@@ -55,7 +55,7 @@ TEST(LabelRepair, TakesTheCheapestWayOutOfADiagonal) {
   }
   ASSERT_EQ(around.size(), 4U);
   const auto diagonal = [&](std::size_t i) {
-    const Vec2 c = complex.centroid(around[i] % complex.faces()) - Vec2(2, 2);
+    const Vec2 c = complex.centroid(complex.face_of(around[i])) - Vec2(2, 2);
     return c.x() * c.y() > 0;
   };
   std::vector<std::uint8_t> label(complex.cells(), 0);
