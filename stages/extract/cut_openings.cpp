@@ -15,7 +15,6 @@ namespace roomcut::extract {
 
 namespace {
 
-
 /// The level nearest to z when it is within kPlanSnap_m, else none.
 std::optional<std::size_t> level_at(const std::vector<double>& levels, double z) {
   const auto above = std::lower_bound(levels.begin(), levels.end(), z - kPlanSnap_m);
@@ -41,8 +40,6 @@ std::vector<std::size_t> add_levels(CellComplex& complex, const std::vector<Open
     layer_of.push_back(static_cast<std::size_t>(above - old.begin()) - 1);
   }
   return layer_of;
-}
-
 }
 
 /// Tries the openings on the refined complex. Closes in `closed` what the cut had emptied of an accepted one.
@@ -242,6 +239,7 @@ OpenableComplex cut_openings(const CellComplex& complex, const Labels& labels,
   for (const Opening& opening : openings) {
     Passage passage;
     const std::string why =
+        opener.try_open(opening, locator.face_at(0.5 * (opening.jamb_a + opening.jamb_b)), passage);
     if (why.empty()) {
       result.passages.push_back(std::move(passage));
     } else {
