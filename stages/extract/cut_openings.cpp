@@ -15,7 +15,6 @@ namespace roomcut::extract {
 
 namespace {
 
-
 /// The level nearest to z when it is within kPlanSnap_m, else none.
 std::optional<std::size_t> level_at(const std::vector<double>& levels, double z) {
   const auto above = std::lower_bound(levels.begin(), levels.end(), z - kPlanSnap_m);
