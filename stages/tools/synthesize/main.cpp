@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "common/artefact/json.h"
 #include "common/cli/run_stage.h"
 #include "stages/tools/synthesize/params.h"
 #include "stages/tools/synthesize/scene_json.h"
@@ -36,8 +35,7 @@ void run(StageRun& stage, const SynthesizeParams& params) {
       stage.output("scan-out"), scene, *source, {stage.option("e57") == "spherical", build_folder()},
       stage.threads(), [&](std::uint64_t amount) { progress.advance(amount); });
   write_truth(stage.output("truth-out"), scene, building, truth);
-  write_json_artefact(stage.output("truth-json"), artefacts::kScene, stage.provenance(), Frame{},
-                      truth_json(scene, building, truth, points));
+  write_truth_json(stage.output("truth-json"), scene, building, truth, points, stage.provenance());
   stage.count("points", static_cast<double>(points));
   stage.count("rooms", static_cast<double>(scene.rooms.size() * copies(scene)));
   stage.count("volume", volume(truth) * static_cast<double>(copies(scene)), "m^3");
