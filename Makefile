@@ -9,7 +9,7 @@ MAKEFLAGS += --no-print-directory --no-builtin-rules
 # From the command line; passed on through the environment as they were typed, so that names may hold spaces and any letters, "$" too:
 # Make expands none of them, and hands none on to another make.
 BUILD ?= build
-given := SCAN WORK CONFIG BUILD JOBS UP UNIT LEVEL STATIONS TRUTH PORT QUIET ONLY BASE OUT ROOT A B
+given := SCAN WORK CONFIG BUILD JOBS UP UNIT LEVEL STATIONS TRUTH PORT QUIET ONLY BASE OUT ROOT PRESET SWITCHES A B
 $(foreach name,$(given),$(eval override $(name) := $$(value $(name))))
 export $(given)
 # Shells call the width of a terminal COLUMNS, too: only that of the command line is meant.
@@ -25,7 +25,7 @@ generator = $$(command -v ninja > /dev/null && echo "-G Ninja")
 quiet_make = env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL
 pipeline = +@sh stages/pipeline.sh
 
-.PHONY: help deps configured build programs test demo run status verify view edit-lines diff-lines drop-edit layers evaluate compare accuracy accuracy-walls accuracy-weights bench fuzz robustness tidy format ready \
+.PHONY: help deps configured build programs pipeline_programs parameters test demo run status verify view edit-lines diff-lines drop-edit layers evaluate compare accuracy ablation accuracy-walls accuracy-weights bench fuzz robustness tidy format ready ready_tools \
         $(stages) $(stages:%=rerun-%) $(stages:%=clean-%) $(stages:%=plot-%)
 
 help:
@@ -45,8 +45,11 @@ help:
 	'make diff-lines | drop-edit   what the edit changes | move it aside' \
 	'make compare A=… B=…          two work folders side by side: parameters, lines, rooms, models; a page and JSON' \
 	'make report | evaluate TRUTH=truth.off | bench | tidy | format' \
+	'make parameters               after a change of parameters: pipeline.yaml, its JSON Schema, the tables of the READMEs' \
 	'make accuracy                 scores of scenes with known truth, in one table; ONLY="virtual uniform_house_*" some of' \
 	'                              them, BASE=old.json what changed since, OUT=file the JSON (work/accuracy/accuracy.json)' \
+	'                              PRESET=paper_2013: the method as published, beside the defaults' \
+	'make ablation                 what each addition to the paper is worth: all of them off, one at a time; ONLY=, SWITCHES=' \
 	'make accuracy-walls           errors of walls and heights beside their stated sigmas; ONLY="uniform_3mm …", OUT=file' \
 	'make accuracy-weights         after make accuracy: weights of the data term fitted with every building left out; ONLY=, OUT=file;' \
 	'                              ROOT=folder of its work folders, here and in make accuracy, instead of work/accuracy/' \
@@ -73,18 +76,27 @@ configured: deps
 build: configured
 	@cmake --build "$$BUILD"
 
-# Without the tests, which are more than a quarter of a build.
-programs: configured
-	@cmake --build "$$BUILD" --target programs
+# Without the tests, which are more than a quarter of a build; and of the programs only those of pipeline.table, which make a model.
+programs pipeline_programs: configured
+	@cmake --build "$$BUILD" --target $@
+
+# What is made from the parameters as the programs describe them (contract_pipeline_yaml compares).
+parameters: programs
+	@sh stages/pipeline_yaml.sh "$$BUILD" > pipeline.yaml.tmp && mv pipeline.yaml.tmp pipeline.yaml
+	@python3 stages/pipeline_schema.py "$$BUILD" > schemas/pipeline.schema.tmp && mv schemas/pipeline.schema.tmp schemas/pipeline.schema.json
+	@python3 stages/parameter_tables.py "$$BUILD"
 
 test: build
 	@$(quiet_make) ctest --test-dir "$$BUILD" --output-on-failure -j "$$(nproc)"
 
-# The programs, built when there are none yet. After a change of the sources: make build.
+# What a command runs, built when it is not there yet. After a change of the sources: make build.
 ready:
-	@if [ ! -x "$$BUILD/bin/report" ] || [ ! -x "$$BUILD/bin/artefact" ]; then $(MAKE) programs; fi
+	@[ -x "$$BUILD/bin/report" ] && [ -x "$$BUILD/bin/artefact" ] || $(MAKE) pipeline_programs
+ready_tools: ready
+	@[ -x "$$BUILD/bin/view" ] && [ -x "$$BUILD/bin/compare" ] && [ -x "$$BUILD/bin/diff_lines" ] || $(MAKE) programs
+view compare diff-lines: ready_tools
 
-demo: programs
+demo: pipeline_programs
 	@mkdir -p work/demo
 	@"$$BUILD/bin/synthesize" --scene tests/data/scenes/paper_two_storeys.json --scan-out work/demo/scan.ply \
 	  --truth-out work/demo/truth.off --truth-json work/demo/truth.json
@@ -109,6 +121,9 @@ $(stages:%=plot-%): ready
 
 accuracy: build
 	@$(quiet_make) python3 tests/accuracy/accuracy.py "$$BUILD"
+
+ablation: build
+	@$(quiet_make) python3 tests/accuracy/ablation.py "$$BUILD"
 
 accuracy-walls: build
 	@set -f; $(quiet_make) python3 tests/accuracy/walls.py --build "$$BUILD" $${OUT:+--json "$$OUT"} $${ONLY:+--only $$ONLY}

@@ -36,12 +36,17 @@ def block_schema(program):
     return {"description": program["summary"], "type": ["object", "null"], "additionalProperties": False, "properties": properties}
 
 
+def described_programs(build):
+    """What each program says of itself: {"name", "summary", "parameters", …} (common/cli/describe.h)."""
+    return [json.loads(subprocess.run([os.path.join(build, "bin", name), "--describe"], check=True, capture_output=True).stdout)
+            for name in programs()]
+
+
 def main(build):
-    described = [json.loads(subprocess.run([os.path.join(build, "bin", name), "--describe"], check=True, capture_output=True).stdout)
-                 for name in programs()]
     schema = {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "pipeline.yaml of roomcut", "type": ["object", "null"],
-              "additionalProperties": False, "properties": {program["name"]: block_schema(program) for program in described}}
+              "additionalProperties": False, "properties": {program["name"]: block_schema(program) for program in described_programs(build)}}
     print(json.dumps(schema, indent=2, ensure_ascii=False))
 
 
-main(sys.argv[1])
+if __name__ == "__main__":
+    main(sys.argv[1])

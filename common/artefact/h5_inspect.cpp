@@ -12,7 +12,7 @@
 #include "common/artefact/artefact_check.h"
 #include "common/artefact/h5_blocks.h"
 #include "common/artefact/h5_content.h"
-#include "common/artefact/json.h"
+#include "common/artefact/json_values.h"
 #include "common/artefact/known_artefacts.h"
 #include "common/errors/codes.h"
 

@@ -8,6 +8,7 @@
 #include "common/artefact/artefact_check.h"
 #include "common/artefact/atomic_file.h"
 #include "common/artefact/h5.h"
+#include "common/artefact/json_values.h"
 #include "common/artefact/limits.h"
 #include "common/artefact/sha256.h"
 #include "common/errors/codes.h"
@@ -139,6 +140,10 @@ double metres_at(const Json& owner, const char* key) {
 std::string canonical_json(const Json& value) {
   require_finite(value, "");
   return value.dump();
+}
+
+std::string lossy_json(const Json& value) {
+  return value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string pretty_json(const Json& value) {

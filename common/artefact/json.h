@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <stdexcept>
 #include <string>
 
@@ -12,7 +12,7 @@
 
 namespace roomcut {
 
-using Json = nlohmann::json;
+using Json = nlohmann::json;  ///< only declared here: json_values.h
 
 /// Arrays and objects within each other, at most; what is nested deeper is refused, as walking it would use
 /// up the stack. No file of ours has ten.
@@ -24,9 +24,6 @@ class BadJson : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
-
-/// nlohmann's message without its own prefix: "parse error at line 3, column 5: …".
-std::string short_message(const Json::exception& error);
 
 /// The one parser of texts from files: throws BadJson; all numbers of the result are finite, all texts UTF-8.
 Json parse_json(const std::string& text);
@@ -56,6 +53,8 @@ double metres_at(const Json& owner, const char* key);
 /// Compact text with sorted keys; equal values give equal text. Throws std::logic_error for NaN or infinity,
 /// which JSON cannot hold and nlohmann would silently turn into null.
 std::string canonical_json(const Json& value);
+/// Compact text for people and pages: NaN and infinity are null, bytes that are no UTF-8 become U+FFFD.
+std::string lossy_json(const Json& value);
 /// Readable text (indent 2, sorted keys) with the same check.
 std::string pretty_json(const Json& value);
 

@@ -8,7 +8,7 @@
 
 #include "common/artefact/artefact_check.h"
 #include "common/artefact/atomic_file.h"
-#include "common/artefact/json.h"
+#include "common/artefact/json_values.h"
 
 namespace roomcut {
 

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "common/artefact/h5.h"
-#include "common/artefact/json.h"
+#include "common/artefact/json_values.h"
 #include "common/errors/error.h"
 #include "common/rerun/work_digests.h"
 
@@ -45,7 +45,8 @@ std::vector<std::string> parameter_changes(const PipelineStage& stage, const std
   if (!log.is_object() || !now.is_object() || !log.contains("params") || !now.contains("params")) {
     return {"its parameters changed"};
   }
-  std::vector<std::string> text = describe_parameters(log["params"].dump(), now["params"].dump());
+  std::vector<std::string> text =
+      describe_parameters(canonical_json(log["params"]), canonical_json(now["params"]));
   const int before = log.value("revision", 0);
   const int after = now.value("revision", 0);
   if (before != after) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "common/artefact/json.h"
+#include "common/artefact/json_values.h"
 #include "common/artefact_tool/status.h"
 
 namespace roomcut {
@@ -12,7 +12,7 @@ std::vector<std::string> describe_parameters(const std::string& before, const st
     return text;
   }
   const auto word = [](const Json& value) {
-    return value.is_string() ? value.get<std::string>() : value.dump();
+    return value.is_string() ? value.get<std::string>() : canonical_json(value);
   };
   for (const auto& [key, value] : now.items()) {
     if (!old.contains(key)) {

@@ -5,7 +5,7 @@
 #include <iostream>
 
 #include "common/artefact/h5.h"
-#include "common/artefact/json.h"
+#include "common/artefact/json_values.h"
 #include "common/artefact_digest/artefact_digest.h"
 #include "common/artefact_tool/commands.h"
 #include "common/artefact_tool/schema_check.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/cli/describe.h"
 
+#include "common/artefact/json_values.h"
+
 namespace roomcut {
 
 namespace {
@@ -36,7 +38,7 @@ Json parameter_json_of(const Parameter& p) {
 
 }  // namespace
 
-Json describe_program(const StageInfo& info, const ParameterTable& table) {
+std::string describe_program(const StageInfo& info, const ParameterTable& table) {
   Json options = Json::array();
   for (const StageOption& option : info.options) {
     options.push_back({{"option", option.name},
@@ -48,13 +50,13 @@ Json describe_program(const StageInfo& info, const ParameterTable& table) {
   for (const Parameter& p : table) {
     parameters.push_back(parameter_json_of(p));
   }
-  return {{"name", info.name},
-          {"revision", info.revision},
-          {"summary", info.summary},
-          {"inputs", files_json(info.inputs)},
-          {"outputs", files_json(info.outputs)},
-          {"options", options},
-          {"parameters", parameters}};
+  return pretty_json({{"name", info.name},
+                      {"revision", info.revision},
+                      {"summary", info.summary},
+                      {"inputs", files_json(info.inputs)},
+                      {"outputs", files_json(info.outputs)},
+                      {"options", options},
+                      {"parameters", parameters}});
 }
 
 }  // namespace roomcut

@@ -7,6 +7,7 @@
 #include <ctime>
 #include <fstream>
 
+#include "common/artefact/json_values.h"
 #include "common/cli/stage_state.h"
 
 namespace roomcut {
@@ -46,13 +47,12 @@ std::uint64_t bytes_moved(const std::string& key) {
 
 /// A log is read by people and tools alike; whatever bytes a file name has, it must stay valid JSON.
 std::string utf8_or_escaped(const std::string& text) {
-  const std::string dumped = Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
-  return Json::parse(dumped).get<std::string>();
+  return parse_json(lossy_json(text)).get<std::string>();
 }
 
 }  // namespace
 
-Json run_log(const StageRun::State& state, const std::vector<Problem>& problems, int exit_code) {
+std::string run_log(const StageRun::State& state, const std::vector<Problem>& problems, int exit_code) {
   const Usage used = usage_since(state.clock);
   Json log = {{"stage", state.info->name},
               {"revision", state.info->revision},
@@ -66,7 +66,7 @@ Json run_log(const StageRun::State& state, const std::vector<Problem>& problems,
               {"bytes_read", bytes_moved("rchar: ")},
               {"bytes_written", bytes_moved("wchar: ")},
               {"threads", state.threads},
-              {"params", Json::parse(state.params_json, nullptr, false)},
+              {"params", try_parse_json(state.params_json)},
               {"chosen", Json::array()},
               {"counts", Json::array()},
               {"notes", Json::array()},
@@ -104,7 +104,7 @@ Json run_log(const StageRun::State& state, const std::vector<Problem>& problems,
   };
   list(state.info->inputs, log["inputs"]);
   list(state.info->outputs, log["outputs"]);
-  return log;
+  return pretty_json(log);
 }
 
 }  // namespace roomcut

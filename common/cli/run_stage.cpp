@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/cli/run_stage.h"
 
-#include <spdlog/sinks/stdout_color_sinks.h>
-#include <spdlog/spdlog.h>
 #include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
@@ -13,6 +11,7 @@
 
 #include "common/artefact/unsynced_file.h"
 #include "common/cli/describe.h"
+#include "common/cli/messages.h"
 #include "common/cli/stage_stamp.h"
 #include "common/cli/stage_state.h"
 #include "common/errors/codes.h"
@@ -159,23 +158,12 @@ void resolve_parameters(const StageInfo& info, const CommandLine& line, Paramete
   }
 }
 
-void start_logger(const CommandLine& line) {
-  auto logger =
-      std::make_shared<spdlog::logger>("roomcut", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
-  logger->set_pattern("%^%v%$");
-  logger->set_level(line.quiet     ? spdlog::level::err
-                    : line.verbose ? spdlog::level::debug
-                                   : spdlog::level::info);
-  spdlog::set_default_logger(std::move(logger));
-}
-
 void echo_settings(const StageInfo& info, const StageRun::State& state, const ParameterTable& table) {
   for (const Parameter& p : table) {
-    spdlog::debug("{}: {} = {}{}{}", info.name, p.name, p.get(), p.unit == "1" ? "" : " ",
-                  p.unit == "1" ? "" : p.unit);
+    messages::detail(info.name + ": " + p.name + " = " + p.get() + (p.unit == "1" ? "" : " " + p.unit));
   }
   for (const auto& [name, path] : state.files) {
-    spdlog::debug("{}: --{} {}", info.name, name, path.string());
+    messages::detail(info.name + ": --" + name + " " + path.string());
   }
 }
 
@@ -184,16 +172,16 @@ void echo_settings(const StageInfo& info, const StageRun::State& state, const Pa
 void print_summary(const StageRun::State& state) {
   std::string text;
   for (const Count& count : state.counts) {
-    text += (text.empty() ? "" : ", ") + count.what + " " + readable(count.value) +
+    text += (text.empty() ? "" : ", ") + count.what + " " + messages::readable(count.value) +
             (count.unit.empty() || count.unit == "1" ? "" : " " + count.unit);
   }
   const Usage used = usage_since(state.clock);
-  spdlog::info("{}: {}{}{:.2f} s, {:.0f} MB", state.info->name, text, text.empty() ? "" : "; ", used.wall_s,
-               used.peak_mb);
+  messages::info(state.info->name + ": " + text + (text.empty() ? "" : "; ") +
+                 messages::resources(used.wall_s, used.peak_mb));
   if (state.warnings.size() > 1) {
-    spdlog::warn("{}: {} warnings:", state.info->name, state.warnings.size());
+    messages::warn(state.info->name + ": " + std::to_string(state.warnings.size()) + " warnings:");
     for (const std::string& warning : state.warnings) {
-      spdlog::warn("  {}", warning);
+      messages::warn("  " + warning);
     }
   }
 }
@@ -264,7 +252,7 @@ void write_log(const CommandLine& line, bool work_given, const StageInfo& info, 
                                          ? std::filesystem::path(line.work) / "logs" / (info.name + ".json")
                                          : std::filesystem::path(line.log);
   try {
-    write_unsynced_file(path, pretty_json(run_log(state, problems, exit_code)) + "\n");
+    write_unsynced_file(path, run_log(state, problems, exit_code) + "\n");
   } catch (const std::exception& error) {
     std::cerr << "warning: " << info.name << ": the log is not written: " << error.what();
   }
@@ -289,7 +277,9 @@ int run_stage(int argc, char** argv, const StageInfo& declared, ParameterTable t
   } catch (const CLI::ParseError& error) {
     return report({{errors::kUsage, info.name, error.what(), "see " + info.name + " --help"}});
   }
-  start_logger(line);
+  messages::start(line.quiet     ? messages::Level::kErrorsOnly
+                  : line.verbose ? messages::Level::kDetails
+                                 : messages::Level::kUsual);
   install_signal_handlers();
   const bool work_given = app.get_option("--work")->count() > 0;
 
@@ -307,7 +297,7 @@ int run_stage(int argc, char** argv, const StageInfo& declared, ParameterTable t
           return;
         }
         if (line.describe) {
-          std::cout << pretty_json(describe_program(info, table)) << "\n" << std::flush;
+          std::cout << describe_program(info, table) << "\n" << std::flush;
           return;
         }
         resolve_files(info, line, state);

@@ -1,24 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "common/artefact/h5.h"
 #include "common/artefact/sha256.h"
+#include "common/cli/messages.h"
 #include "common/cli/stage_state.h"
 
 namespace roomcut {
 
 namespace fs = std::filesystem;
-
-std::string readable(double value) {
-  if (std::isfinite(value) && value == std::floor(value) && std::abs(value) < 1e15) {
-    return fmt::format("{:.0f}", value);
-  }
-  return fmt::format("{:.4g}", value);
-}
 
 namespace {
 
@@ -131,7 +122,7 @@ void StageRun::chose(const std::string& parameter, double value) {
   const std::string& why = found->formula;
   const std::scoped_lock lock(state_.mutex);
   state_.choices.push_back({parameter, value, why});
-  spdlog::info("{}: {} = {} ({})", state_.info->name, parameter, readable(value), why);
+  messages::info(state_.info->name + ": " + parameter + " = " + messages::readable(value) + " (" + why + ")");
 }
 
 void StageRun::count(const std::string& what, double value, const std::string& unit) {
@@ -142,13 +133,13 @@ void StageRun::count(const std::string& what, double value, const std::string& u
 void StageRun::note(const std::string& text) {
   const std::scoped_lock lock(state_.mutex);
   state_.notes.push_back(text);
-  spdlog::info("{}: {}", state_.info->name, text);
+  messages::info(state_.info->name + ": " + text);
 }
 
 void StageRun::warn(const std::string& text) {
   const std::scoped_lock lock(state_.mutex);
   state_.warnings.push_back(text);
-  spdlog::warn("warning: {}: {}", state_.info->name, text);
+  messages::warn("warning: " + state_.info->name + ": " + text);
 }
 
 }  // namespace roomcut

@@ -9,7 +9,6 @@
 #include <string_view>
 #include <vector>
 
-#include "common/artefact/json.h"
 #include "common/cli/run_stage.h"
 
 /// What StageRun and run_stage() share; not for stages.
@@ -58,9 +57,6 @@ inline constexpr std::string_view kNoMemoryHint = "close other programs, or use 
 /// Says N07 without any allocation, after temporary files are gone, and ends the process with its exit code.
 [[noreturn]] void end_out_of_memory();
 
-/// A number as people read it: whole numbers in full, others with four digits.
-std::string readable(double value);
-
 /// Resources of this process so far.
 struct Usage {
   double wall_s;
@@ -70,8 +66,8 @@ struct Usage {
 Usage usage_since(std::chrono::steady_clock::time_point start);
 
 /// The log of one run: what may differ between equal runs (times, host) and what the user may want to look
-/// up.
-Json run_log(const StageRun::State& state, const std::vector<Problem>& problems, int exit_code);
+/// up; JSON.
+std::string run_log(const StageRun::State& state, const std::vector<Problem>& problems, int exit_code);
 
 /// SIGINT, SIGTERM, SIGHUP: temporary files go, then the process ends by the signal. SIGABRT (a failed
 /// assertion) and crashes: the same, with exit code 1. SIGXFSZ is ignored, so that a write over the limit is

@@ -11,7 +11,7 @@
 #include "common/artefact/artefact_check.h"
 #include "common/artefact/atomic_file.h"
 #include "common/artefact/frame_crs.h"
-#include "common/artefact/json.h"
+#include "common/artefact/json_values.h"
 #include "common/artefact/known_artefacts.h"
 #include "common/artefact/limits.h"
 #include "common/artefact/sha256.h"
@@ -43,14 +43,15 @@ std::string proof_text(const OpeningProof& proof) {
 
 std::string feature_text(const Opening& opening, const Frame& frame) {
   const OpeningPlace place = place_in_scan(opening, frame);
-  const std::string id = Json(opening.id).dump();
+  const std::string id = canonical_json(opening.id);
   return R"({"type": "Feature", "id": )" + id + R"(, "properties": {"opening_id": )" + id + R"(, "walls": )" +
-         Json({opening.wall_a, opening.wall_b}).dump() + R"(, "thickness_m": )" + fixed(opening.thickness_m) +
-         R"(, "width_m": )" + fixed(opening.width()) + R"(, "sill_z_m": )" + fixed(place.sill_z) +
-         R"(, "head_z_m": )" + fixed(place.head_z) + R"(, "jamb_a": )" + proof_text(opening.proof_a) +
-         R"(, "jamb_b": )" + proof_text(opening.proof_b) + R"(, "head": )" + proof_text(opening.proof_head) +
-         R"(}, "geometry": {"type": "LineString", "coordinates": [[)" + fixed(place.jamb_a.x()) + ", " +
-         fixed(place.jamb_a.y()) + "], [" + fixed(place.jamb_b.x()) + ", " + fixed(place.jamb_b.y()) + "]]}}";
+         canonical_json({opening.wall_a, opening.wall_b}) + R"(, "thickness_m": )" +
+         fixed(opening.thickness_m) + R"(, "width_m": )" + fixed(opening.width()) + R"(, "sill_z_m": )" +
+         fixed(place.sill_z) + R"(, "head_z_m": )" + fixed(place.head_z) + R"(, "jamb_a": )" +
+         proof_text(opening.proof_a) + R"(, "jamb_b": )" + proof_text(opening.proof_b) + R"(, "head": )" +
+         proof_text(opening.proof_head) + R"(}, "geometry": {"type": "LineString", "coordinates": [[)" +
+         fixed(place.jamb_a.x()) + ", " + fixed(place.jamb_a.y()) + "], [" + fixed(place.jamb_b.x()) + ", " +
+         fixed(place.jamb_b.y()) + "]]}}";
 }
 
 std::string features_text(const Openings& openings) {
@@ -167,12 +168,13 @@ std::string openings_text(const Openings& openings, const Provenance& provenance
   Json made = to_json(provenance);
   made["payload_sha256"] = payload_of(normalised);
   return std::string("{\n\"type\": \"FeatureCollection\",\n\"name\": \"openings\",\n") +
-         "\"crs\": {\"type\": \"name\", \"properties\": {\"name\": " + Json(crs_of(normalised.frame)).dump() +
-         "}},\n\"" + kMember + "\": {\n\"artefact\": \"openings\",\n\"schema_version\": " +
-         Json(version_text(artefacts::kOpenings)).dump() +
+         "\"crs\": {\"type\": \"name\", \"properties\": {\"name\": " +
+         canonical_json(crs_of(normalised.frame)) + "}},\n\"" + kMember +
+         "\": {\n\"artefact\": \"openings\",\n\"schema_version\": " +
+         canonical_json(version_text(artefacts::kOpenings)) +
          ",\n\"length_unit\": \"m\",\n\"coordinates\": \"scan\",\n\"frame\": " +
          canonical_json(to_json(normalised.frame)) +
-         ",\n\"cells_payload_sha256\": " + Json(normalised.cells_payload_sha256).dump() +
+         ",\n\"cells_payload_sha256\": " + canonical_json(normalised.cells_payload_sha256) +
          ",\n\"provenance\": " + canonical_json(made) + "\n},\n\"features\": [\n" +
          features_text(normalised) + "\n]\n}\n";
 }

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "common/artefact/atomic_file.h"
-#include "common/artefact/json.h"
+#include "common/artefact/json_values.h"
 #include "common/errors/codes.h"
 #include "common/params/params.h"
 #include "common/pipeline/pipeline_table.h"
@@ -164,7 +164,8 @@ void load_dump(const std::filesystem::path& path, const std::string& stage, Para
     if (parameter == nullptr) {
       problems.push_back({errors::kUnknownParameter, where, "there is no such parameter", names_of(table)});
     } else {
-      set_value(*parameter, where, value.is_string() ? value.get<std::string>() : value.dump(), problems);
+      set_value(*parameter, where, value.is_string() ? value.get<std::string>() : canonical_json(value),
+                problems);
     }
   }
   for (const Parameter& parameter : table) {

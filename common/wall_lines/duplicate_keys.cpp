@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "common/artefact/json.h"
+#include "common/artefact/json_values.h"
 
 namespace roomcut {
 

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "common/artefact/json_values.h"
 #include "common/errors/codes.h"
 #include "common/wall_lines/duplicate_keys.h"
 #include "common/wall_lines/wall_lines_format.h"

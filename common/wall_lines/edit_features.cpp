@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "common/artefact/json_values.h"
 #include "common/errors/codes.h"
 #include "common/wall_lines/edit_document.h"
 #include "common/wall_lines/wall_lines_format.h"
@@ -39,7 +40,7 @@ std::optional<bool> truth_of(const Json& value) {
   if (value.is_boolean()) {
     return value.get<bool>();
   }
-  std::string text = value.is_string() ? trimmed(value.get<std::string>()) : value.dump();
+  std::string text = value.is_string() ? trimmed(value.get<std::string>()) : canonical_json(value);
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
   if (text == "true" || text == "t" || text == "yes" || text == "1") {
     return true;
@@ -137,7 +138,7 @@ class FeatureReader {
 
   void read_id(const Json& value) {
     const bool usable = value.is_string() || value.is_number_integer();
-    const std::string id = value.is_string() ? trimmed(value.get<std::string>()) : value.dump();
+    const std::string id = value.is_string() ? trimmed(value.get<std::string>()) : canonical_json(value);
     const auto control = [](unsigned char c) { return c < 0x20; };
     if (value.is_null()) {
       return;
@@ -159,7 +160,7 @@ class FeatureReader {
         bad_property(name, value, "a list of slice numbers, or null for all");
       }
     } else if (name == "note") {
-      line.note = value.is_string() ? value.get<std::string>() : value.dump();
+      line.note = value.is_string() ? value.get<std::string>() : canonical_json(value);
     } else if (std::find(std::begin(kKnownProperties), std::end(kKnownProperties), name) ==
                std::end(kKnownProperties)) {
       if (name != "id" || value != id_) {  // some versions of QGIS copy the feature's id into a property

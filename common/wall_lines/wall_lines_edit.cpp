@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/artefact/artefact_check.h"
+#include "common/artefact/json_values.h"
 #include "common/errors/codes.h"
 #include "common/wall_lines/edit_document.h"
 #include "common/wall_lines/wall_lines_format.h"

@@ -10,6 +10,7 @@
 
 #include "common/artefact/artefact_check.h"
 #include "common/artefact/frame_crs.h"
+#include "common/artefact/json_values.h"
 #include "common/artefact/sha256.h"
 #include "common/wall_lines/wall_lines_io.h"
 
@@ -38,11 +39,11 @@ std::string fixed(double value) {
 }
 
 std::string json_text(std::string_view text) {
-  return Json(text).dump();
+  return canonical_json(text);
 }
 
 std::string levels_text(const WallLine& line) {
-  return line.levels ? Json(*line.levels).dump() : "null";
+  return line.levels ? canonical_json(*line.levels) : "null";
 }
 
 std::string point_text(const Vec2& point) {

@@ -6,6 +6,7 @@
 
 #include "common/artefact/artefact_check.h"
 #include "common/artefact/atomic_file.h"
+#include "common/artefact/json_values.h"
 #include "common/artefact/known_artefacts.h"
 #include "common/artefact/limits.h"
 #include "common/errors/codes.h"

@@ -5,7 +5,6 @@
 #include "common/cli/run_stage.h"
 #include "common/wall_lines/wall_lines_io.h"
 #include "stages/accept_lines/accept_lines.h"
-#include "stages/accept_lines/params.h"
 
 namespace {
 
@@ -56,5 +55,5 @@ void body(StageRun& run) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return run_stage(argc, argv, info(), accept_lines_parameters(), body);
+  return run_stage(argc, argv, info(), {}, body);
 }

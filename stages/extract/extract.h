@@ -9,14 +9,11 @@
 #include "common/mesh/facet_surface.h"
 #include "common/mesh/mesh_check.h"
 #include "common/openings/opening.h"
+#include "stages/extract/params.h"
 #include "stages/extract/rooms.h"
 #include "stages/extract/storeys.h"
 
 namespace roomcut::extract {
-
-struct ExtractParams {
-  StoreyParams storeys;
-};
 
 /// Areas of the model's surface by kind [m^2].
 struct SurfaceAreas {

@@ -52,8 +52,7 @@ void body(StageRun& run, const ExtractParams& params) {
   }
   write_model_ply(run.output("ply"), model, cells.complex.frame);
   write_model_obj(run.output("obj"), model, cells.complex.frame);
-  write_json_artefact(run.output("summary"), artefacts::kSummary, run.provenance(), cells.complex.frame,
-                      summary_json(model, cells.complex, labels));
+  write_summary(run.output("summary"), model, cells.complex, labels, run.provenance());
   std::filesystem::remove(rejected);
   run.count("storeys", static_cast<double>(model.storeys.size()));
   run.count("rooms", static_cast<double>(model.rooms.size()));
@@ -70,5 +69,5 @@ void body(StageRun& run, const ExtractParams& params) {
 
 int main(int argc, char** argv) {
   ExtractParams params;
-  return run_stage(argc, argv, info(), extract_parameters(params), [&](StageRun& run) { body(run, params); });
+  return run_stage(argc, argv, info(), parameters(params), [&](StageRun& run) { body(run, params); });
 }

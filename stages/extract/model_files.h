@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "common/artefact/json.h"
+#include "common/artefact/provenance.h"
 #include "stages/extract/extract.h"
 
 namespace roomcut::extract {
@@ -15,7 +15,8 @@ bool write_model_ply(const std::filesystem::path& path, const Model& model, cons
 /// model.obj: strictly convex polygons in groups storey_<i>_<kind>. OBJ knows no holes, so a region with
 /// holes (or a concave one) is several polygons.
 bool write_model_obj(const std::filesystem::path& path, const Model& model, const Frame& frame);
-/// The members of summary.json (schemas/summary.md).
-Json summary_json(const Model& model, const CellComplex& complex, const Labels& labels);
+/// summary.json (schemas/summary.md). Returns whether its content is new.
+bool write_summary(const std::filesystem::path& path, const Model& model, const CellComplex& complex,
+                   const Labels& labels, const Provenance& provenance);
 
 }  // namespace roomcut::extract

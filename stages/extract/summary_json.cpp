@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "common/artefact/json_values.h"
 #include "common/geometry/scan_coordinates.h"
 #include "stages/extract/model_files.h"
 
@@ -48,8 +49,6 @@ Json check_json(const Model& model) {
           {"volume_m3", check.volume_m3},
           {"cells_m3", model.empty_m3}};
 }
-
-}  // namespace
 
 Json summary_json(const Model& model, const CellComplex& complex, const Labels& labels) {
   const ScanCoordinates scan(complex.frame);
@@ -102,6 +101,14 @@ Json summary_json(const Model& model, const CellComplex& complex, const Labels& 
         {"triangles", model.surface.mesh.triangles.size()},
         {"vertices", model.surface.mesh.vertices.size()}}},
       {"mesh", check_json(model)}};
+}
+
+}  // namespace
+
+bool write_summary(const std::filesystem::path& path, const Model& model, const CellComplex& complex,
+                   const Labels& labels, const Provenance& provenance) {
+  return write_json_artefact(path, artefacts::kSummary, provenance, complex.frame,
+                             summary_json(model, complex, labels));
 }
 
 }  // namespace roomcut::extract

@@ -1,25 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "common/cells/cell_complex.h"
 #include "common/openings/opening.h"
+#include "stages/find_openings/params.h"
 #include "stages/find_openings/reveal.h"
 #include "stages/find_openings/room_walls.h"
 #include "stages/find_openings/wall_evidence.h"
 
 namespace roomcut::find_openings {
-
-struct FindOpeningsParams {
-  bool enabled = true;
-  double min_width_m = 0.5;
-  double max_width_m = 3.0;
-  double min_height_m = 1.6;
-  double max_thickness_m = 0.6;
-  std::optional<double> margin_m;  ///< auto: max(1.5 cm, 3 noise)
-};
 
 OpeningTolerances opening_tolerances(const FindOpeningsParams& params, double noise_m, double density);
 

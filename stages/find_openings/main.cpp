@@ -50,6 +50,5 @@ void body(StageRun& run, const FindOpeningsParams& params) {
 
 int main(int argc, char** argv) {
   FindOpeningsParams params;
-  return run_stage(argc, argv, info(), find_openings_parameters(params),
-                   [&](StageRun& run) { body(run, params); });
+  return run_stage(argc, argv, info(), parameters(params), [&](StageRun& run) { body(run, params); });
 }

@@ -1,13 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include "common/params/params.h"
-#include "stages/find_openings/find_openings.h"
 
 namespace roomcut::find_openings {
 
-/// The block `find_openings` of pipeline.yaml, bound to `params`.
-inline ParameterTable find_openings_parameters(FindOpeningsParams& p) {
+struct FindOpeningsParams {
+  bool enabled = true;
+  double min_width_m = 0.5;
+  double max_width_m = 3.0;
+  double min_height_m = 1.6;
+  double max_thickness_m = 0.6;
+  std::optional<double> margin_m;  ///< auto: max(1.5 cm, 3 noise)
+};
+
+/// The block `find_openings` of pipeline.yaml, bound to `p`.
+inline ParameterTable parameters(FindOpeningsParams& p) {
   return {
       boolean("enabled", p.enabled, "Find doors and passages; false leaves every wall closed."),
       number("min_width_m", p.min_width_m, "m", 0.3, 10, "Narrowest opening, from jamb to jamb."),

@@ -20,17 +20,6 @@ StageInfo info() {
   return stage;
 }
 
-ParameterTable graphcut_parameters(GraphcutParams& p) {
-  return {
-      number("mu_m", p.mu_m, "m", 0.01, 5.0,
-             "What a square metre of surface without points costs, in cubic metres of cells (the paper's "
-             "alpha times "
-             "the building's height)."),
-      number("min_observed", p.min_observed, "1", 0.0, 1.0,
-             "Cells of whose rays a smaller share ends on a seen face are reported as unobserved."),
-  };
-}
-
 void body(StageRun& run, const GraphcutParams& params) {
   const CellsFile cells = read_cells(run.input("cells"));
   const FaceWeights weights = read_weights(run.input("weights"), cells);
@@ -54,6 +43,5 @@ void body(StageRun& run, const GraphcutParams& params) {
 
 int main(int argc, char** argv) {
   GraphcutParams params;
-  return run_stage(argc, argv, info(), graphcut_parameters(params),
-                   [&](StageRun& run) { body(run, params); });
+  return run_stage(argc, argv, info(), parameters(params), [&](StageRun& run) { body(run, params); });
 }

@@ -34,7 +34,7 @@ std::size_t bytes_per_point(PointForm form) {
 }
 
 DecoderStream::DecoderStream(std::string file, const std::vector<std::string>& command)
-    : file_(std::move(file)), process_(command) {}
+    : file_(std::move(file)), process_(command, ChildProcess::Stream::kOutput) {}
 
 void DecoderStream::read_head() {
   while (!begun_ && next({})) {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "stages/ingest/decoder_process.h"
+#include "common/child_process/child_process.h"
 #include "stages/ingest/scan_reader.h"
 
 namespace roomcut::ingest {
@@ -69,7 +69,7 @@ class DecoderStream {
   [[noreturn]] void came_to_no_end();
 
   std::string file_;
-  DecoderProcess process_;
+  ChildProcess process_;
   StreamHead head_;
   std::vector<Vec3> stations_;
   std::vector<std::string> notes_, warnings_;

@@ -125,18 +125,6 @@ StageInfo ingest_info() {
   return info;
 }
 
-ParameterTable ingest_parameters(IngestParams& params) {
-  return {
-      number("voxel_edge_m", params.voxel_edge_m, "m", 0.01, 0.2,
-             "Finest voxel of the moments; where points are sparse, edges of 2, 4 and 8 times it are used"),
-      number("wall_max_nz", params.wall_max_nz, "1", 0.05, 0.6,
-             "A plane is a wall when |nz| of its normal is below"),
-      number("level_min_nz", params.level_min_nz, "1", 0.7, 0.999,
-             "A plane is a floor or ceiling when |nz| of its normal is above"),
-      number("planar_ratio", params.planar_ratio, "1", 0.05, 0.9,
-             "Points lie on a plane when their smallest variance is below this share of the middle one")};
-}
-
 namespace {
 
 constexpr double kLevelled_deg = 0.3;  // less is the noise of real floors

@@ -7,7 +7,6 @@
 namespace roomcut::ingest {
 
 StageInfo ingest_info();
-ParameterTable ingest_parameters(IngestParams& params);
 /// Reads the scan, writes cloud.h5, tells the user what was dropped and what the cloud is like.
 void run_ingest(StageRun& run, const IngestParams& params);
 

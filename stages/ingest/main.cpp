@@ -6,6 +6,6 @@ int main(int argc, char** argv) {
   using namespace roomcut;
   using namespace roomcut::ingest;
   IngestParams params;
-  return run_stage(argc, argv, ingest_info(), ingest_parameters(params),
+  return run_stage(argc, argv, ingest_info(), parameters(params),
                    [&params](StageRun& run) { run_ingest(run, params); });
 }

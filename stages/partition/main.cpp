@@ -23,20 +23,6 @@ StageInfo info() {
   return stage;
 }
 
-ParameterTable partition_parameters(PartitionParams& p) {
-  return {
-      number("margin_m", p.margin_m, "m", 0.05, 100.0,
-             "Distance of the bounding box from the scan and the lines."),
-      number("extend_m", p.extend_m, "m", 0.0, 10000.0,
-             "A line cuts the faces that its support, lengthened by this at both ends, enters."),
-      boolean(
-          "prune", p.prune,
-          "Takes away the parts of a line beyond its reach that no other line needs: fewer, larger cells."),
-      integer("max_cells", p.max_cells, "1", 1000, 200000000,
-              "More cells than this are an error, not a long wait."),
-  };
-}
-
 void body(StageRun& run, const PartitionParams& params) {
   const WallLinesFile lines = read_wall_lines(run.input("lines"));
   const Slices slices = read_slices(run.input("slices"), false);
@@ -65,6 +51,5 @@ void body(StageRun& run, const PartitionParams& params) {
 
 int main(int argc, char** argv) {
   PartitionParams params;
-  return run_stage(argc, argv, info(), partition_parameters(params),
-                   [&](StageRun& run) { body(run, params); });
+  return run_stage(argc, argv, info(), parameters(params), [&](StageRun& run) { body(run, params); });
 }

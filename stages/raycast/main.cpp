@@ -8,16 +8,6 @@ namespace {
 using namespace roomcut;
 using namespace roomcut::raycast;
 
-ParameterTable parameters(RaycastParams& p) {
-  return {
-      integer("rays", p.rays, "1", 2, 4096, "Rays per cell, half of them level, half uniform on the sphere."),
-      choice("evidence", p.evidence, {"combined", "parity"},
-             "combined: all evidences; parity: the paper's share of odd rays alone."),
-      number("surface_depth_m", p.surface_depth_m, "m", 0.0, 10.0,
-             "Volume per square metre with which a cell's own covered faces say on which side it is."),
-  };
-}
-
 void body(StageRun& run, const RaycastParams& params) {
   const CellsFile cells = read_cells(run.input("cells"));
   const FaceWeights weights = read_weights(run.input("weights"), cells);
@@ -26,9 +16,8 @@ void body(StageRun& run, const RaycastParams& params) {
 
   double empty = 0;
   double unclear = 0;
-  const std::size_t faces = cells.complex.faces();
-  for (std::size_t c = 0; faces > 0 && c < terms.beta.size(); ++c) {
-    const double volume = cells.complex.area(c % faces) * cells.complex.height(c / faces);
+  for (std::size_t c = 0; c < terms.beta.size(); ++c) {
+    const double volume = cells.complex.volume(c);
     empty += terms.beta[c] > 0.5F ? volume : 0;
     unclear += terms.beta[c] > 0.3F && terms.beta[c] < 0.7F ? volume : 0;
   }

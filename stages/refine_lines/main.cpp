@@ -86,6 +86,5 @@ void body(StageRun& run, const RefineLinesParams& params) {
 
 int main(int argc, char** argv) {
   RefineLinesParams params;
-  return run_stage(argc, argv, info(), refine_lines_parameters(params),
-                   [&](StageRun& run) { body(run, params); });
+  return run_stage(argc, argv, info(), parameters(params), [&](StageRun& run) { body(run, params); });
 }

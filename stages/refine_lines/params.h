@@ -22,7 +22,8 @@ struct RefineLinesParams {
   std::string edited_lines = "prior";
 };
 
-inline ParameterTable refine_lines_parameters(RefineLinesParams& p) {
+/// The block `refine_lines` of pipeline.yaml, bound to `p`.
+inline ParameterTable parameters(RefineLinesParams& p) {
   return {
       boolean("enabled", p.enabled, "Refine the lines; false passes them through: the paper's single pass."),
       number(

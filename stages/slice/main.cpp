@@ -10,31 +10,6 @@ namespace {
 using namespace roomcut;
 using namespace roomcut::slice;
 
-ParameterTable parameters(SliceParams& p) {
-  return {
-      auto_number("bandwidth_m", p.bandwidth_m, "m", 0.002, 0.5,
-                  "Bandwidth of the mean shift that finds the peaks of the height histogram.",
-                  "max(7 mm, 1.5 x noise)"),
-      auto_number("raster_m", p.raster_m, "m", 0.02, 1.0,
-                  "Edge of the plan raster in which horizontal surfaces are connected.",
-                  "2.5 x point spacing (a preferred number), 10 ... 40 cm"),
-      auto_number("min_component_m2", p.min_component_m2, "m^2", 0.1, 100.0,
-                  "Smallest connected horizontal surface that makes a level.",
-                  "4 m^2; half of the largest surface if that is less"),
-      auto_number("tau_m", p.tau_m, "m", 0.01, 0.5,
-                  "Edge of the occupancy cells of a wall slice (the paper's tau).",
-                  "3 points per cell, 2 x noise (a preferred number), 4 ... 10 cm"),
-      number("cap_reach_m", p.cap_reach_m, "m", 0.05, 5.0,
-             "Walls that go on farther past the last level get a cap there."),
-      number("step_m", p.step_m, "m", 0.0, 5.0,
-             "Distance of the levels that stand for a sloped roof or ramp; 0 = none."),
-      number("tall_slice_m", p.tall_slice_m, "m", 0.0, 100.0,
-             "Wall slices higher than this count evidence in their top part only."),
-      number("evidence_share", p.evidence_share, "1", 0.05, 1.0,
-             "That top part, as a share of the slice's height."),
-  };
-}
-
 void report(StageRun& run, const SliceResult& result) {
   for (const SliceChoice& choice : result.choices) run.chose(choice.parameter, choice.value);
   const Slices& slices = result.slices;

@@ -10,23 +10,6 @@ namespace {
 using namespace roomcut;
 using namespace roomcut::weigh_faces;
 
-ParameterTable parameters(WeighFacesParams& p) {
-  return {
-      auto_number("tau_m", p.tau_m, "m", 0.01, 0.5, "Half the edge of the bins in which coverage is counted.",
-                  "0.6 x point spacing (a preferred number), 4 ... 15 cm"),
-      auto_number("wall_reach_m", p.wall_reach_m, "m", 0.005, 0.5,
-                  "Largest distance of a wall's points from its line.", "3 x noise, 4 ... 5.5 cm"),
-      auto_number("level_reach_m", p.level_reach_m, "m", 0.005, 0.5,
-                  "Largest distance of a floor's points from its level.",
-                  "max(6 cm, 6 x noise), noise up to 5 cm"),
-      angle("azimuth_deg", p.azimuth_rad, 1.0, 45.0,
-            "Largest angle between a wall point's normal and its line's."),
-      number("top_share", p.top_share, "1", 0.0, 1.0,
-             "A wall also counts by this top share of its height alone, which furniture leaves free; 0 = "
-             "never."),
-  };
-}
-
 void report(StageRun& run, const FaceWeights& weights) {
   double on_walls = 0;
   double on_levels = 0;

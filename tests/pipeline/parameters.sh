@@ -1,19 +1,20 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # usage: parameters.sh SOURCE BUILD: pipeline.yaml holds every parameter of every stage at its default, and nothing else; its JSON
-# Schema is the one that the programs make.
+# Schema and the tables of the READMEs are those that the programs make.
 SOURCE=$(realpath "$1")
 BUILD=$(realpath "$2")
 failed=0
-same() { # same FILE COMMAND …
-  local file=$1
+check() { # check WHAT COMMAND …
+  local what=$1
   shift
-  if ! diff "$SOURCE/$file" <("$@" "$BUILD"); then
-    echo "$file and the programs differ; if the programs are right: $1 ${2#"$SOURCE/"} build > $file"
+  if ! "$@"; then
+    echo "$what and the programs differ; if the programs are right: make parameters"
     failed=$((failed + 1))
   fi
 }
-same pipeline.yaml sh "$SOURCE/stages/pipeline_yaml.sh"
-same schemas/pipeline.schema.json python3 "$SOURCE/stages/pipeline_schema.py"
-echo "$((2 - failed)) passed, $failed failed"
+check pipeline.yaml diff "$SOURCE/pipeline.yaml" <(sh "$SOURCE/stages/pipeline_yaml.sh" "$BUILD")
+check "the schema of pipeline.yaml" diff "$SOURCE/schemas/pipeline.schema.json" <(python3 "$SOURCE/stages/pipeline_schema.py" "$BUILD")
+check "READMEs of programs" python3 "$SOURCE/stages/parameter_tables.py" "$BUILD" --check
+echo "$((3 - failed)) passed, $failed failed"
 [ $failed -eq 0 ]

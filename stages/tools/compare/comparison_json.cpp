@@ -2,12 +2,15 @@
 #include <numbers>
 
 #include "common/artefact/artefact_check.h"
+#include "common/artefact/json_values.h"
 #include "common/geometry/scan_coordinates.h"
 #include "stages/tools/compare/comparison_json.h"
 
 namespace roomcut::compare {
 
 namespace {
+
+constexpr ArtefactType kComparison{"comparison", 1, 0};
 
 Json run_json(const RunFacts& run) {
   return {{"name", run.name},
@@ -78,27 +81,6 @@ Json distance_json(const ModelDistance& distance) {
           {"common_m3", distance.common_m3}};
 }
 
-}  // namespace
-
-ModelDistance read_distance(const std::filesystem::path& scores) {
-  const Json json = read_json_artefact(scores, artefacts::kScores);
-  const auto way = [&](const char* name) {
-    const Json& one = json.at("distance").at(name);
-    return ModelDistance::OneWay{one.at("mean_m"), one.at("rms_m"), one.at("p95_m"), one.at("hausdorff_m")};
-  };
-  try {
-    ModelDistance distance{way("model_to_truth"), way("truth_to_model"), 0, 0, 0};
-    if (const Json& volume = json.at("volume"); volume.is_object()) {
-      distance.a_m3 = volume.at("truth_m3");
-      distance.b_m3 = volume.at("model_m3");
-      distance.common_m3 = volume.at("common_m3");
-    }
-    return distance;
-  } catch (const Json::exception& error) {
-    throw_damaged(scores, "", "a value is missing or of another type: " + short_message(error));
-  }
-}
-
 Json comparison_json(const RunFacts& a, const RunFacts& b, const Comparison& comparison,
                      const std::optional<ModelDistance>& distance) {
   Json parameters = Json::array();
@@ -121,6 +103,33 @@ Json comparison_json(const RunFacts& a, const RunFacts& b, const Comparison& com
           {"storeys", spaces_json(a.storeys, b.storeys, comparison.storeys)},
           {"rooms", spaces_json(a.rooms, b.rooms, comparison.rooms)},
           {"distance", distance ? distance_json(*distance) : Json()}};
+}
+
+}  // namespace
+
+ModelDistance read_distance(const std::filesystem::path& scores) {
+  const Json json = read_json_artefact(scores, artefacts::kScores);
+  const auto way = [&](const char* name) {
+    const Json& one = json.at("distance").at(name);
+    return ModelDistance::OneWay{one.at("mean_m"), one.at("rms_m"), one.at("p95_m"), one.at("hausdorff_m")};
+  };
+  try {
+    ModelDistance distance{way("model_to_truth"), way("truth_to_model"), 0, 0, 0};
+    if (const Json& volume = json.at("volume"); volume.is_object()) {
+      distance.a_m3 = volume.at("truth_m3");
+      distance.b_m3 = volume.at("model_m3");
+      distance.common_m3 = volume.at("common_m3");
+    }
+    return distance;
+  } catch (const Json::exception& error) {
+    throw_damaged(scores, "", "a value is missing or of another type: " + short_message(error));
+  }
+}
+
+void write_comparison(const std::filesystem::path& path, const RunFacts& a, const RunFacts& b,
+                      const Comparison& comparison, const std::optional<ModelDistance>& distance,
+                      const Provenance& provenance) {
+  write_json_artefact(path, kComparison, provenance, a.frame, comparison_json(a, b, comparison, distance));
 }
 
 }  // namespace roomcut::compare

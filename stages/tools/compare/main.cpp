@@ -32,8 +32,7 @@ void body(StageRun& run) {
     distance = read_distance(run.input("distance"));
   }
   const std::string picture = run.has_input("picture") ? read_text_file(run.input("picture")) : "";
-  write_json_artefact(run.output("comparison"), kComparison, run.provenance(), a.frame,
-                      comparison_json(a, b, comparison, distance));
+  write_comparison(run.output("comparison"), a, b, comparison, distance, run.provenance());
   write_text_file(run.output("page"), comparison_html(a, b, comparison, distance, picture));
   if (!run.quiet()) {
     std::cout << comparison_text(a, b, comparison, distance);

@@ -4,7 +4,7 @@
 #include "common/artefact/artefact_check.h"
 #include "common/artefact/atomic_file.h"
 #include "common/artefact/h5.h"
-#include "common/artefact/json.h"
+#include "common/artefact/json_values.h"
 #include "common/cells/cells_io.h"
 #include "common/errors/codes.h"
 #include "common/openings/openings_io.h"
@@ -48,7 +48,7 @@ bool there(const fs::path& path) {
 }
 
 std::string text_of(const Json& value) {
-  return value.is_string() ? value.get<std::string>() : value.dump();
+  return value.is_string() ? value.get<std::string>() : canonical_json(value);
 }
 
 /// Runs `read`; what it finds to be missing or of another type in a JSON file is damage of that file.

@@ -8,19 +8,13 @@
 
 #include "common/mesh/mesh_check.h"
 #include "stages/tools/evaluate/explain.h"
+#include "stages/tools/evaluate/params.h"
 #include "stages/tools/evaluate/surface_scores.h"
 #include "stages/tools/evaluate/thin_walls.h"
 #include "stages/tools/evaluate/truth_rooms.h"
 #include "stages/tools/evaluate/volume_scores.h"
 
 namespace roomcut::evaluate {
-
-struct EvaluateParams {
-  std::optional<double> sample_spacing_m, column_spacing_m;
-  double thin_wall_m = 0.40;
-  double found_share = 0.5;
-  double colour_range_m = 0.05;
-};
 
 inline constexpr std::array<double, 4> kBuffers = {0.01, 0.02, 0.05, 0.10};  ///< of the ISPRS scores [m]
 

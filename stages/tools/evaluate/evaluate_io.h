@@ -31,8 +31,8 @@ std::string explanation_rows(const Explanation& explanation, const Scores& score
 void write_truth_cells(const std::filesystem::path& path, const Explanation& explanation,
                        const LabelledCells& cells, const Provenance& provenance);
 
-/// The members of scores.json (schemas/scores.md).
-Json scores_json(const Scores& scores);
+/// scores.json (schemas/scores.md).
+void write_scores(const std::filesystem::path& path, const Scores& scores, const Provenance& provenance);
 
 /// What is printed: one compact table.
 std::string scores_table(const Scores& scores);

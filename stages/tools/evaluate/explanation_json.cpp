@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdio>
 
+#include "common/artefact/json_values.h"
 #include "common/cells/cells_io.h"
 #include "common/geometry/level_turn.h"
 #include "stages/tools/evaluate/evaluate_io.h"

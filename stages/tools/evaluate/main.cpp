@@ -71,8 +71,7 @@ void body(StageRun& run, const EvaluateParams& params) {
   const DistanceMesh coloured = measure_for_display(model, MeshTree(truth));
   write_distance_ply(run.output("coloured"), coloured, axes, params.colour_range_m);
   write_distance_png(run.output("picture"), coloured, params.colour_range_m);
-  write_json_artefact(run.output("scores"), artefacts::kScores, run.provenance(), Frame{},
-                      scores_json(scores));
+  write_scores(run.output("scores"), scores, run.provenance());
   write_cells_out(run, scores, cells);
   run.chose("sample_spacing_m", scores.sample_spacing_m);
   if (!run.quiet()) {
@@ -84,6 +83,5 @@ void body(StageRun& run, const EvaluateParams& params) {
 
 int main(int argc, char** argv) {
   EvaluateParams params;
-  return run_stage(argc, argv, info(), evaluate_parameters(params),
-                   [&](StageRun& run) { body(run, params); });
+  return run_stage(argc, argv, info(), parameters(params), [&](StageRun& run) { body(run, params); });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
+#include "common/artefact/json_values.h"
 #include "stages/tools/evaluate/evaluate_io.h"
 
 namespace roomcut::evaluate {
@@ -98,8 +99,6 @@ Json thin_json(const Scores& scores) {
           {"pairs", pairs}};
 }
 
-}  // namespace
-
 Json scores_json(const Scores& scores) {
   Json isprs = Json::array();
   for (const Scores::Isprs& at : scores.isprs) {
@@ -127,6 +126,12 @@ Json scores_json(const Scores& scores) {
             {"model_samples", scores.model_samples},
             {"truth_samples", scores.truth_samples},
             {"column_spacing_m", scores.volume ? Json(scores.column_spacing_m) : Json(nullptr)}}}};
+}
+
+}  // namespace
+
+void write_scores(const std::filesystem::path& path, const Scores& scores, const Provenance& provenance) {
+  write_json_artefact(path, artefacts::kScores, provenance, Frame{}, scores_json(scores));
 }
 
 }  // namespace roomcut::evaluate

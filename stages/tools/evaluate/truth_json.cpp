@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/artefact/atomic_file.h"
+#include "common/artefact/json_values.h"
 #include "common/errors/codes.h"
 #include "stages/tools/evaluate/evaluate_io.h"
 

@@ -53,7 +53,7 @@ int main(int argc, char** argv) {
       {"only", "all", "draw the result of one stage, or only some files; the page is then left as it is",
        report_choices()},
       {"template", "", "the page without data; empty: report_page.html beside this program", {}}};
-  return run_stage(argc, argv, info, report_table(params), [&](StageRun& run) {
+  return run_stage(argc, argv, info, parameters(params), [&](StageRun& run) {
     const std::string& only = run.option("only");
     const auto page = run.output("report");
     if (only == "layers") {

@@ -32,7 +32,7 @@ PageBlock PageBlockBuilder::finish() const {
     head["arrays"][array.name] = {array.type, array.count, offset};
     offset = aligned(offset + array.bytes.size());
   }
-  const std::string text = head.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string text = lossy_json(head);
   const auto length = static_cast<std::uint32_t>(text.size());
   std::string bytes(sizeof length, '\0');
   std::memcpy(bytes.data(), &length, sizeof length);

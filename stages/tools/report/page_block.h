@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "common/artefact/json.h"
+#include "common/artefact/json_values.h"
 #include "stages/tools/report/page_template.h"
 
 namespace roomcut::report {

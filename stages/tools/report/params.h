@@ -10,7 +10,8 @@ struct ReportParams {
   int cloud_points = 200000;  ///< points of the scan in picture and page
 };
 
-inline ParameterTable report_table(ReportParams& p) {
+/// The block `report` of pipeline.yaml, bound to `p`.
+inline ParameterTable parameters(ReportParams& p) {
   return {
       integer("picture_px", p.picture_px, "px", 200, 8000, "Width of the pictures of the model."),
       integer("cloud_points", p.cloud_points, "1", 0, 100000000,

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <Eigen/Geometry>
 #include <array>
+#include <span>
 #include <system_error>
 
 #include "common/artefact/atomic_file.h"
+#include "common/child_process/child_process.h"
 #include "common/errors/codes.h"
-#include "stages/tools/synthesize/encoder_process.h"
 #include "stages/tools/synthesize/scan_writer.h"
 
 namespace roomcut::synthesize {
@@ -32,27 +33,31 @@ class EncodedWriter : public ScanWriter {
  public:
   EncodedWriter(const std::filesystem::path& path, const std::string& encoder, const std::string& option,
                 const std::filesystem::path& encoders)
-      : file_(path), process_(command_of(path, encoder, option, encoders, file_.temporary_path())) {}
+      : file_(path),
+        process_(command_of(path, encoder, option, encoders, file_.temporary_path()),
+                 ChildProcess::Stream::kInput) {}
 
   void begin(const ScannerPose* pose) override {
-    if (pose == nullptr) return record('S', nullptr, 0);
+    if (pose == nullptr) return record('S', {});
     const Eigen::Quaterniond turn(pose->rotation);
     const std::array<double, 7> numbers{turn.w(),           turn.x(),           turn.y(),          turn.z(),
                                         pose->position.x(), pose->position.y(), pose->position.z()};
-    record('S', numbers.data(), sizeof numbers);
+    record('S', std::as_bytes(std::span(numbers)));
   }
 
-  void add(std::span<const float> xyz) override { record('P', xyz.data(), xyz.size_bytes()); }
+  void add(std::span<const float> xyz) override { record('P', std::as_bytes(xyz)); }
 
   void finish() override {
-    record('E', nullptr, 0);
+    record('E', {});
     end();
     file_.commit();
   }
 
  private:
-  void record(char kind, const void* data, std::uint64_t bytes) {
-    if (!process_.write(&kind, 1) || !process_.write(&bytes, sizeof bytes) || !process_.write(data, bytes)) {
+  void record(char kind, std::span<const std::byte> data) {
+    const std::uint64_t bytes = data.size();
+    if (!process_.write(std::as_bytes(std::span(&kind, 1))) ||
+        !process_.write(std::as_bytes(std::span(&bytes, 1))) || !process_.write(data)) {
       end();
       cannot_write("its encoder took no more points");
     }
@@ -67,7 +72,7 @@ class EncodedWriter : public ScanWriter {
   }
 
   AtomicFile file_;
-  EncoderProcess process_;
+  ChildProcess process_;
 };
 
 }  // namespace

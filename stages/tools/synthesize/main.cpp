@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "common/artefact/json.h"
 #include "common/cli/run_stage.h"
 #include "stages/tools/synthesize/params.h"
 #include "stages/tools/synthesize/scene_json.h"
@@ -36,8 +35,7 @@ void run(StageRun& stage, const SynthesizeParams& params) {
       stage.output("scan-out"), scene, *source, {stage.option("e57") == "spherical", build_folder()},
       stage.threads(), [&](std::uint64_t amount) { progress.advance(amount); });
   write_truth(stage.output("truth-out"), scene, building, truth);
-  write_json_artefact(stage.output("truth-json"), artefacts::kScene, stage.provenance(), Frame{},
-                      truth_json(scene, building, truth, points));
+  write_truth_json(stage.output("truth-json"), scene, building, truth, points, stage.provenance());
   stage.count("points", static_cast<double>(points));
   stage.count("rooms", static_cast<double>(scene.rooms.size() * copies(scene)));
   stage.count("volume", volume(truth) * static_cast<double>(copies(scene)), "m^3");
@@ -58,10 +56,5 @@ int main(int argc, char** argv) {
                   {"truth-json", "rooms, walls, openings, scanner positions"}};
   info.options = {{"e57", "cartesian", "how an E57 file holds its points", {"cartesian", "spherical"}}};
   SynthesizeParams params;
-  ParameterTable table = {
-      auto_number("points", params.points, "1", 1, 1e10, "Number of points.", "as the scene says"),
-      auto_number("seed", params.seed, "1", 0, 9e15, "Seed of all random numbers.", "as the scene says"),
-      auto_number("noise_m", params.noise_m, "m", 0, 1, "Standard deviation of the noise.",
-                  "as the scene says")};
-  return run_stage(argc, argv, info, std::move(table), [&](StageRun& stage) { run(stage, params); });
+  return run_stage(argc, argv, info, parameters(params), [&](StageRun& stage) { run(stage, params); });
 }

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "common/artefact/atomic_file.h"
-#include "common/artefact/json.h"
+#include "common/artefact/json_values.h"
 #include "stages/tools/synthesize/families.h"
 #include "stages/tools/synthesize/plan.h"
 #include "stages/tools/synthesize/scene_limits.h"

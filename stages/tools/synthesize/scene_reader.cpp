@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "common/artefact/json_values.h"
 #include "stages/tools/synthesize/plan.h"
 #include "stages/tools/synthesize/scene_limits.h"
 
@@ -15,7 +16,7 @@ using nlohmann::json;
 namespace {
 
 std::string range_text(double lowest, double highest) {
-  return "must be a number in " + json(lowest).dump() + " … " + json(highest).dump();
+  return "must be a number in " + canonical_json(lowest) + " … " + canonical_json(highest);
 }
 
 bool is_point(const json& value, std::size_t size) {
@@ -86,6 +87,10 @@ SceneNode::~SceneNode() {
 
 void SceneNode::problem(const std::string& what, const std::string& hint) {
   problems_.push_back({errors::kSceneInvalid, path_, what, hint.empty() ? kSceneRemedy : hint});
+}
+
+bool SceneNode::has(const std::string& key) const {
+  return value_.is_object() && value_.contains(key);
 }
 
 const json* SceneNode::member(const std::string& key) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <set>
 #include <string>
 #include <vector>
@@ -21,7 +21,7 @@ class SceneNode {
   SceneNode(const SceneNode&) = delete;
   SceneNode& operator=(const SceneNode&) = delete;
 
-  bool has(const std::string& key) const { return value_.is_object() && value_.contains(key); }
+  bool has(const std::string& key) const;
   double number(const std::string& key, double fallback, double lowest, double highest);
   double required_number(const std::string& key, double lowest, double highest);
   std::int64_t integer(const std::string& key, std::int64_t fallback, std::int64_t lowest,

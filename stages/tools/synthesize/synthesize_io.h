@@ -4,8 +4,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
+#include "common/artefact/provenance.h"
 #include "stages/tools/synthesize/scan_writer.h"
 #include "stages/tools/synthesize/truth.h"
 
@@ -25,5 +26,7 @@ void write_truth(const std::filesystem::path& path, const Scene& scene, const Bu
 /// The content of truth.json (schemas/truth.md).
 nlohmann::json truth_json(const Scene& scene, const Building& building, const TriangleMesh& truth,
                           std::uint64_t points);
+void write_truth_json(const std::filesystem::path& path, const Scene& scene, const Building& building,
+                      const TriangleMesh& truth, std::uint64_t points, const Provenance& provenance);
 
 }  // namespace roomcut::synthesize

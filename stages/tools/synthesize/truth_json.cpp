@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string>
 
+#include "common/artefact/json_values.h"
 #include "stages/tools/synthesize/plan.h"
 #include "stages/tools/synthesize/synthesize_io.h"
 #include "stages/tools/synthesize/walls.h"
@@ -125,6 +126,12 @@ json truth_json(const Scene& scene, const Building& building, const TriangleMesh
           {"windows", tables.windows},
           {"walls", tables.walls},
           {"stations", scene.sampling.kind == SamplingKind::kTripod ? tables.stations : json::array()}};
+}
+
+void write_truth_json(const std::filesystem::path& path, const Scene& scene, const Building& building,
+                      const TriangleMesh& truth, std::uint64_t points, const Provenance& provenance) {
+  write_json_artefact(path, artefacts::kScene, provenance, Frame{},
+                      truth_json(scene, building, truth, points));
 }
 
 }  // namespace roomcut::synthesize

@@ -4,7 +4,7 @@
 #include <boost/system/system_error.hpp>
 #include <map>
 
-#include "common/artefact/json.h"
+#include "common/artefact/json_values.h"
 #include "common/errors/codes.h"
 #include "stages/tools/view/byte_range.h"
 #include "stages/tools/view/edit_store.h"
@@ -21,7 +21,7 @@ namespace {
 HttpAnswer json_answer(int status, const Json& body) {
   HttpAnswer answer;
   answer.status = status;
-  answer.text = body.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  answer.text = lossy_json(body) + "\n";
   return answer;
 }
 

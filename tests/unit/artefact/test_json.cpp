@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "common/artefact/json.h"
+#include "common/artefact/json_values.h"
 
 #include <gtest/gtest.h>
 

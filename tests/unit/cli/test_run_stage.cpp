@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "common/artefact/json.h"
+#include "common/artefact/json_values.h"
 #include "common/cli/run_stage.h"
 #include "common/errors/codes.h"
 #include "common/rerun/stamp.h"

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "common/artefact/json.h"
+#include "common/artefact/json_values.h"
 #include "common/cloud/cloud_io.h"
 
 namespace roomcut::compare {

@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "common/artefact/atomic_file.h"
-#include "common/artefact/json.h"
+#include "common/artefact/json_values.h"
 #include "common/cells/cells_io.h"
 #include "common/geometry/scan_coordinates.h"
 #include "common/mesh/mesh_check.h"

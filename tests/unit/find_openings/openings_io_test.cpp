@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "common/artefact/json.h"
+#include "common/artefact/json_values.h"
 #include "common/errors/codes.h"
 #include "common/geometry/scan_coordinates.h"
 

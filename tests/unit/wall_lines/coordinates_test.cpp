@@ -3,7 +3,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "common/artefact/json.h"
+#include "common/artefact/json_values.h"
 #include "common/geometry/scan_coordinates.h"
 #include "tests/unit/wall_lines/lines_fixture.h"
 

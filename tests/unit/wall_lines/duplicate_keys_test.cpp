@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/artefact/json.h"
+#include "common/artefact/json_values.h"
 
 namespace roomcut {
 namespace {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "common/artefact/json.h"
+#include "common/artefact/json_values.h"
 #include "tests/unit/wall_lines/lines_fixture.h"
 
 namespace roomcut {

@@ -6,7 +6,7 @@
 
 #include "common/artefact/artefact_check.h"
 #include "common/artefact/h5.h"
-#include "common/artefact/json.h"
+#include "common/artefact/json_values.h"
 #include "common/artefact_digest/artefact_digest.h"
 #include "common/errors/codes.h"
 #include "common/errors/error.h"
