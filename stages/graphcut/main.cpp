@@ -11,7 +11,7 @@ using namespace roomcut::graphcut;
 StageInfo info() {
   StageInfo stage;
   stage.name = "graphcut";
-  stage.revision = 4;
+  stage.revision = 3;
   stage.summary = "Labels every cell empty or solid by one exact minimum cut";
   stage.inputs = {{"cells", "The cell complex"},
                   {"weights", "Coverage of its faces"},

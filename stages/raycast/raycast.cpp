@@ -66,25 +66,25 @@ DataTerms cast_rays(const CellComplex& complex, const FaceWeights& weights, cons
   }
   const RayRules rules{params.rays, parity, params.origins == "centre", params.level_rays};
   const std::vector<double> carved = carve_lines_of_sight(complex, walk, weights.stations);
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, cells, 16), [&](const tbb::blocked_range<std::size_t>& range) {
-        std::vector<Crossing> scratch;
-        for (std::size_t c = range.begin(); c < range.end(); ++c) {
-          CellEvidence e = gather_evidence(complex, weights, walk, complex.face_of(c), complex.layer_of(c),
-                                           rules, scratch);
-          e.carved = carved[c];
-          store(e, c, terms);
-          const FeatureValues values = features_of(e);
-          for (std::size_t i = 0; i < values.size(); ++i) {
-            terms.features[i].value[c] = static_cast<float>(values[i]);
-          }
-          const double beta = sigmoid(parity ? 10 * (e.kappa - 0.5) : model.log_odds(values));
-          const double depth = parity ? 0 : params.surface_depth_m;
-          terms.beta[c] = static_cast<float>(beta);
-          terms.d_empty[c] = e.volume_m3 * (1 - beta) + depth * e.back_m2;
-          terms.d_solid[c] = e.volume_m3 * beta + depth * e.front_m2;
-        }
-      });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells, 16),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      std::vector<Crossing> scratch;
+                      for (std::size_t c = range.begin(); c < range.end(); ++c) {
+                        CellEvidence e = gather_evidence(complex, weights, walk, complex.face_of(c),
+                                                         complex.layer_of(c), rules, scratch);
+                        e.carved = carved[c];
+                        store(e, c, terms);
+                        const FeatureValues values = features_of(e);
+                        for (std::size_t i = 0; i < values.size(); ++i) {
+                          terms.features[i].value[c] = static_cast<float>(values[i]);
+                        }
+                        const double beta = sigmoid(parity ? 10 * (e.kappa - 0.5) : model.log_odds(values));
+                        const double depth = parity ? 0 : params.surface_depth_m;
+                        terms.beta[c] = static_cast<float>(beta);
+                        terms.d_empty[c] = e.volume_m3 * (1 - beta) + depth * e.back_m2;
+                        terms.d_solid[c] = e.volume_m3 * beta + depth * e.front_m2;
+                      }
+                    });
   return terms;
 }
 
