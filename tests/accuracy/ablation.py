@@ -25,8 +25,8 @@ USUAL = "virtual *_1"
 # What goes with another line: values that are no addition, and the votes without which mean shift takes every crossing of two streaks in
 # the accumulator for a line.
 GOES_WITH = {"detect_lines.search": ["detect_lines.min_support_m", "detect_lines.vote_window_deg", "detect_lines.votes"],
-             "weigh_faces.correct_density": ["weigh_faces.tau_m"]}
-VALUES = ("detect_lines.min_support_m", "weigh_faces.tau_m")
+             "detect_lines.wider": ["slice.tau_m"], "weigh_faces.correct_density": ["weigh_faces.tau_m"]}
+VALUES = ("slice.tau_m", "detect_lines.min_support_m", "weigh_faces.tau_m")
 # Only volumes and rooms are looked at: coarser samples of the surface do.
 COARSE = ["--set", "sample_spacing_m=0.3", "--set", "column_spacing_m=0.05"]
 
