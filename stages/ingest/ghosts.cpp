@@ -205,6 +205,7 @@ std::vector<KeptTile> kept_tiles(const Cells& cells) {
     }
   }
   std::vector<KeptTile> all;
+  all.reserve(tiles.size());
   for (const auto& [tile, kept] : tiles) {
     all.push_back(kept);
   }

@@ -22,8 +22,11 @@ from accuracy import DATA, PRESETS, ROOT, SOURCE, fail
 
 PRESET = os.path.join(PRESETS, "paper_2013.yaml")
 USUAL = "virtual *_1"
-# Values that belong to another line, and are no addition.
-GOES_WITH = {"detect_lines.search": ["detect_lines.min_support_m"], "weigh_faces.correct_density": ["weigh_faces.tau_m"]}
+# What goes with another line: values that are no addition, and the votes without which mean shift takes every crossing of two streaks in
+# the accumulator for a line.
+GOES_WITH = {"detect_lines.search": ["detect_lines.min_support_m", "detect_lines.vote_window_deg", "detect_lines.votes"],
+             "detect_lines.wider": ["slice.tau_m"], "weigh_faces.correct_density": ["weigh_faces.tau_m"]}
+VALUES = ("slice.tau_m", "detect_lines.min_support_m", "weigh_faces.tau_m")
 # Only volumes and rooms are looked at: coarser samples of the surface do.
 COARSE = ["--set", "sample_spacing_m=0.3", "--set", "column_spacing_m=0.05"]
 
@@ -42,8 +45,7 @@ def read_preset(path):
 
 def variants(preset):
     """{name: parameters that differ from the defaults}, from the last stage to the first: what is quick comes first."""
-    attached = {name for names in GOES_WITH.values() for name in names}
-    single = {name: {key: preset[key] for key in (name, *GOES_WITH.get(name, []))} for name in reversed(preset) if name not in attached}
+    single = {name: {key: preset[key] for key in (name, *GOES_WITH.get(name, []))} for name in reversed(preset) if name not in VALUES}
     return {DEFAULT: {}, ALL: preset, **single}
 
 

@@ -101,8 +101,8 @@ class Switches(unittest.TestCase):
 
     def test_each_addition_is_switched_off_alone_and_all_of_them_together(self):
         self.assertEqual(self.variants["graphcut.free_from"], {"graphcut.free_from": "1"})
-        self.assertEqual(self.variants["detect_lines.search"], {"detect_lines.search": "mean_shift", "detect_lines.min_support_m": "1.5"})
-        for value in ("detect_lines.min_support_m", "weigh_faces.tau_m"):
+        self.assertEqual(self.variants["weigh_faces.correct_density"], {"weigh_faces.correct_density": "false", "weigh_faces.tau_m": "0.12"})
+        for value in ablation.VALUES:
             self.assertIn(value, self.preset)
             self.assertNotIn(value, self.variants)
         self.assertEqual((self.variants["default"], self.variants["all"]), ({}, self.preset))

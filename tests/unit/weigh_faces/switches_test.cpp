@@ -81,8 +81,10 @@ TEST(Switches, WithoutSlopesARoofCoversNoLevel) {
   const CellComplex complex = room();
   SampledCloud cloud(400, 0.004);
   cloud.flat(0, 4, 0, 4, 0);
-  for (int i = 0; i < 4000; ++i) {
-    cloud.point({0.1 + 0.0475 * (i % 80), 0.1 + 0.076 * (i / 80), 2.55}, SurfaceClass::kSloped, 0);
+  for (int ix = 0; ix < 80; ++ix) {
+    for (int iy = 0; iy < 50; ++iy) {
+      cloud.point({0.1 + 0.0475 * ix, 0.1 + 0.076 * iy, 2.55}, SurfaceClass::kSloped, 0);
+    }
   }
   const std::size_t ceiling = complex.level_face(4, 1);
   EXPECT_GT(weigh(complex, cloud, {}).level_omega[ceiling], 0.5);
