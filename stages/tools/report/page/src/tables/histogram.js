@@ -52,7 +52,7 @@ function picture(levels, { z0, bin_m: bin }, bins, scan) {
   drawing.append(svg("path", { d: path, fill: "#282828", stroke: "#282828", "stroke-width": 0.7 }));
   let last = Infinity;
   for (const level of levels) {
-    drawing.append(svg("line", { x1: kLeft + kBars - 40, x2: kLeft + kBars, y1: y(level.z), y2: y(level.z), stroke: "#d55e00", "stroke-width": 2 }));
+    drawing.append(svg("line", { x1: kLeft + kBars - 40, x2: kLeft + kBars, y1: y(level.z), y2: y(level.z), stroke: named("vermilion"), "stroke-width": 2 }));
     const at = Math.min(y(level.z) + 4, last - 13); // labels of close peaks do not overlap
     last = at;
     drawing.append(svg("text", { x: kLeft + kBars + 8, y: at, fill: "#b34700" }, `${number(scan.captionHeight(level.z), 3)} m: ${level.cap ? "cap" : level.step ? "step" : `${number(level.area_m2, 0)} m²`}`));
