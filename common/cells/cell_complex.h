@@ -241,4 +241,11 @@ struct Labels {
   std::int64_t repair_flips = 0;         ///< labels that the repair to a 2-manifold surface changed
 };
 
+/// To which storey and which room each cell belongs, numbered as in summary.json; -1 = solid. Cells that lie
+/// in a door have a storey, but no room.
+struct CellRooms {
+  std::vector<std::int16_t> storey;
+  std::vector<std::int32_t> room;
+};
+
 }  // namespace roomcut

@@ -9,8 +9,8 @@
 
 namespace roomcut {
 
-// Readers and writers of cells.h5, weights.h5, data_terms.h5 and labels.h5. Errors: kArtefact…
-// (common/artefact/h5.h). weights, data_terms and labels store the payload digest of the cells.h5 they belong
+// Readers and writers of cells.h5, weights.h5, data_terms.h5, labels.h5 and rooms.h5. Errors: kArtefact…
+// (common/artefact/h5.h). All but the first store the payload digest of the cells.h5 they belong
 // to; a reader that is given the complex and its digest refuses files of another complex with
 // kArtefactMismatch ("rerun …"). Writers return whether the payload is new.
 
@@ -33,5 +33,9 @@ bool write_data_terms(const std::filesystem::path& path, const DataTerms& terms,
 Labels read_labels(const std::filesystem::path& path, const CellsFile& cells);
 bool write_labels(const std::filesystem::path& path, const Labels& labels, const CellsFile& cells,
                   const Provenance& provenance);
+
+CellRooms read_rooms(const std::filesystem::path& path, const CellsFile& cells);
+bool write_rooms(const std::filesystem::path& path, const CellRooms& rooms, const CellsFile& cells,
+                 const Provenance& provenance);
 
 }  // namespace roomcut

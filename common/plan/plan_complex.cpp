@@ -33,18 +33,17 @@ Subdivision plan_of(const CellComplex& complex) {
   }
   std::vector<std::int32_t> face_start;
   for (std::size_t face = 0; face < complex.faces(); ++face) {
-    const std::int64_t begin = complex.face_offset[face];
-    const std::int64_t end = complex.face_offset[face + 1];
-    const auto half_edge = [&](std::int64_t i) {
-      const std::int32_t edge = complex.face_edge[i];
-      return 2 * edge + (complex.edges[edge].v0 == complex.face_vertex[i] ? 0 : 1);
+    const auto vertices = complex.vertices_of(face);
+    const auto half_edge = [&](std::size_t i) {
+      const std::int32_t edge = complex.edges_of(face)[i];
+      return 2 * edge + (complex.edges[edge].v0 == vertices[i] ? 0 : 1);
     };
-    for (std::int64_t i = begin; i < end; ++i) {
-      const std::int32_t next = half_edge(i + 1 < end ? i + 1 : begin);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const std::int32_t next = half_edge(i + 1 < vertices.size() ? i + 1 : 0);
       half_edges[half_edge(i)].next = next;
       half_edges[next].prev = half_edge(i);
     }
-    face_start.push_back(half_edge(begin));
+    face_start.push_back(half_edge(0));
   }
   link_outside(half_edges, complex.vertices.size());
   return {complex.vertices, std::move(half_edges), std::move(face_start)};

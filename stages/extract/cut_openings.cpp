@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -207,18 +208,28 @@ class Opener {
   ManifoldCheck check_;
 };
 
-Labels inherited(const Labels& labels, const CellComplex& old, const CellComplex& refined,
-                 const std::vector<std::int32_t>& parent, const std::vector<std::size_t>& layer_of) {
-  Labels result = labels;
-  result.label.resize(refined.cells());
-  result.unobserved.resize(refined.cells());
-  result.margin_m3.clear();
+/// Which cell of the old complex each cell of the refined one is a part of.
+std::vector<std::size_t> whole_cells(const CellComplex& old, const CellComplex& refined,
+                                     const std::vector<std::int32_t>& parent,
+                                     const std::vector<std::size_t>& layer_of) {
+  std::vector<std::size_t> whole;
+  whole.reserve(refined.cells());
   for (std::size_t k = 0; k < refined.layers(); ++k) {
     for (std::size_t f = 0; f < refined.faces(); ++f) {
-      const std::size_t from = old.cell(static_cast<std::size_t>(parent[f]), layer_of[k]);
-      result.label[refined.cell(f, k)] = labels.label[from];
-      result.unobserved[refined.cell(f, k)] = labels.unobserved[from];
+      whole.push_back(old.cell(static_cast<std::size_t>(parent[f]), layer_of[k]));
     }
+  }
+  return whole;
+}
+
+Labels inherited(const Labels& labels, const std::vector<std::size_t>& whole) {
+  Labels result = labels;
+  result.label.resize(whole.size());
+  result.unobserved.resize(whole.size());
+  result.margin_m3.clear();
+  for (std::size_t cell = 0; cell < whole.size(); ++cell) {
+    result.label[cell] = labels.label[whole[cell]];
+    result.unobserved[cell] = labels.unobserved[whole[cell]];
   }
   return result;
 }
@@ -228,12 +239,15 @@ Labels inherited(const Labels& labels, const CellComplex& old, const CellComplex
 OpenableComplex cut_openings(const CellComplex& complex, const Labels& labels,
                              const std::vector<Opening>& openings) {
   if (openings.empty()) {
-    return {complex, labels, {}, {}};
+    OpenableComplex same{complex, labels, std::vector<std::size_t>(complex.cells()), {}, {}};
+    std::iota(same.whole.begin(), same.whole.end(), 0);
+    return same;
   }
   std::vector<std::int32_t> parent;
-  OpenableComplex result{with_jambs(complex, openings, parent), {}, {}, {}};
+  OpenableComplex result{with_jambs(complex, openings, parent), {}, {}, {}, {}};
   const std::vector<std::size_t> layer_of = add_levels(result.complex, openings);
-  result.labels = inherited(labels, complex, result.complex, parent, layer_of);
+  result.whole = whole_cells(complex, result.complex, parent, layer_of);
+  result.labels = inherited(labels, result.whole);
   const FaceLocator locator(result.complex);
   Opener opener(result.complex, result.labels);
   for (const Opening& opening : openings) {

@@ -21,6 +21,7 @@ struct Passage {
 struct OpenableComplex {
   CellComplex complex;
   Labels labels;
+  std::vector<std::size_t> whole;  ///< per cell, the cell of the given complex that it is a part of
   std::vector<Passage> passages;
   std::vector<std::string> refused;  ///< "o0007: why": openings that do not fit the labels; they stay closed
 };

@@ -66,6 +66,25 @@ std::vector<ModelOpening> list_openings(const std::vector<Passage>& passages, co
   return list;
 }
 
+/// Brings storeys and rooms of the refined cells back to those that they are parts of.
+CellRooms rooms_of_whole_cells(const Labels& labels, const OpenableComplex& cut, const Storeys& storeys,
+                               const Rooms& rooms) {
+  CellRooms out;
+  out.storey.assign(labels.label.size(), -1);
+  out.room.assign(labels.label.size(), -1);
+  std::vector<std::pair<bool, double>> best(labels.label.size());  // whether it lies in a room, volume
+  for (std::size_t part = 0; part < cut.whole.size(); ++part) {
+    const std::size_t whole = cut.whole[part];
+    const std::pair<bool, double> weight(rooms.of_cell[part] >= 0, cut.complex.volume(part));
+    if (is_empty(labels.label, whole) && storeys.of_cell[part] >= 0 && weight > best[whole]) {
+      best[whole] = weight;
+      out.storey[whole] = storeys.of_cell[part];
+      out.room[whole] = rooms.of_cell[part];
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 Model extract_model(const CellComplex& complex, const Labels& labels, const std::vector<Opening>& openings,
@@ -80,15 +99,16 @@ Model extract_model(const CellComplex& complex, const Labels& labels, const std:
   Model model;
   model.refused = std::move(cut.refused);
   model.storeys = measure_storeys(cut.complex, cut.labels, storeys);
-  Rooms rooms = find_rooms(cut.complex, cut.labels, storeys);
+  const Rooms rooms = find_rooms(cut.complex, cut.labels, storeys);
   model.openings = list_openings(cut.passages, rooms, storeys);
-  model.rooms = std::move(rooms.spaces);
+  model.rooms = rooms.spaces;
   open_passages(cut.passages, cut.labels);
   for (std::size_t i = 0; i < cut.passages.size(); ++i) {
     for (const std::size_t cell : cut.passages[i].cells) {
       storeys.of_cell[cell] = static_cast<std::int16_t>(model.openings[i].storey);
     }
   }
+  model.cell_rooms = rooms_of_whole_cells(labels, cut, storeys, rooms);
   model.empty_m3 = empty_volume(cut.complex, cut.labels.label);
   const FacetSurface facets = surface_of_labels(cut.complex, cut.labels.label, storeys);
   model.surface = merge_facets(facets);

@@ -33,6 +33,7 @@ struct Model {
   MergedSurface surface;       ///< local metres; normals point out of the empty space
   std::vector<Space> storeys;  ///< ascending
   std::vector<Space> rooms;    ///< by storey, then by volume; without the openings between them
+  CellRooms cell_rooms;  ///< of the given complex: a cell that openings cut has those of its largest part
   std::vector<ModelOpening> openings;
   std::vector<std::string> refused;  ///< "o0007: why": openings that do not fit the labels
   SurfaceAreas areas;

@@ -15,7 +15,7 @@ using namespace roomcut::extract;
 StageInfo info() {
   StageInfo stage;
   stage.name = "extract";
-  stage.revision = 4;
+  stage.revision = 5;
   stage.summary = "Turns the labelled cells into a closed model: model.ply, model.obj, summary.json";
   stage.inputs = {{"cells", "Cell decomposition"},
                   {"weights", "Evidence on the faces"},
@@ -24,7 +24,8 @@ StageInfo info() {
                   {"openings", "Doors and passages; absent: every wall stays closed", true}};
   stage.outputs = {{"ply", "Triangles, with kind, storey and region"},
                    {"obj", "Polygons, grouped per storey and kind"},
-                   {"summary", "Storeys, rooms, areas, volumes, checks"}};
+                   {"summary", "Storeys, rooms, areas, volumes, checks"},
+                   {"rooms", "Storey and room of every cell"}};
   return stage;
 }
 
@@ -50,6 +51,7 @@ void body(StageRun& run, const ExtractParams& params) {
                      "the model fails its check: " + model.fault,
                      "please report it with " + rejected.string() + " and the .h5 files beside the labels");
   }
+  write_rooms(run.output("rooms"), model.cell_rooms, cells, run.provenance());
   write_model_ply(run.output("ply"), model, cells.complex.frame);
   write_model_obj(run.output("obj"), model, cells.complex.frame);
   write_summary(run.output("summary"), model, cells.complex, labels, run.provenance());

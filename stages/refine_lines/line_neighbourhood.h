@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "common/cloud/cloud.h"
+#include "common/cloud/azimuth_set.h"
 #include "stages/refine_lines/line_faces.h"
 
 namespace roomcut::refine_lines {
@@ -14,7 +14,7 @@ namespace roomcut::refine_lines {
 struct LineTrack {
   std::size_t line;                 ///< index into the lines
   std::vector<std::int32_t> patch;  ///< bins × zones; index among all patches, -1 = no surface
-  std::vector<std::uint8_t> fits;   ///< per azimuth step: whether a wall point of that azimuth may lie on it
+  AzimuthSet fits;                  ///< azimuths of wall points that may lie on it
 };
 
 /// A line, prepared for the loop over points.

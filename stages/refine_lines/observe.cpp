@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace roomcut::refine_lines {
 
 namespace {
 
-constexpr double kAzimuthFits_rad = 17.0 * std::numbers::pi / 180.0;
 constexpr std::uint32_t kFewestPoints = 4;
 constexpr double kPatchPoints = 20;
 constexpr double kLowestZone_m = 0.5;
@@ -74,10 +72,7 @@ LineTrack LineObserver::make_track(std::size_t line, std::int32_t& patches) cons
   for (std::int32_t& patch : track.patch) {
     patch = patch < 0 ? -1 : patches++;
   }
-  for (int step = 0; step < kAzimuthSteps; ++step) {
-    const double azimuth = azimuth_of(static_cast<std::uint8_t>(step));
-    track.fits.push_back(angle_between(azimuth, faces.line.theta) <= kAzimuthFits_rad ? 1 : 0);
-  }
+  track.fits = azimuths_on(faces.line.theta, kAzimuthFits_rad);
   return track;
 }
 
@@ -107,7 +102,7 @@ LineObserver::Hit LineObserver::find_line(const CloudTile& tile, std::size_t i,
   for (const NearLine& candidate : near) {
     const LineFaces& faces = *candidate.faces;
     const double e = candidate.normal.dot(p) - faces.line.d;
-    if (std::abs(e) >= nearest || (upright && candidate.track->fits[tile.azimuth[i]] == 0)) {
+    if (std::abs(e) >= nearest || (upright && !candidate.track->fits[tile.azimuth[i]])) {
       continue;
     }
     const double t = (candidate.direction.dot(p) - faces.t0) / faces.bin_m;

@@ -78,29 +78,26 @@ FaceRaster::FaceRaster(const CellComplex& complex, double bin, double margin) : 
 }
 
 FaceRaster::Polygon FaceRaster::shrink(const CellComplex& complex, std::size_t face, double margin) {
-  const auto begin = static_cast<std::size_t>(complex.face_offset[face]);
-  const auto end = static_cast<std::size_t>(complex.face_offset[face + 1]);
-  Polygon polygon;
-  for (std::size_t i = begin; i < end; ++i) {
-    polygon.push_back(complex.vertices[static_cast<std::size_t>(complex.face_vertex[i])]);
-  }
+  const FaceCorners corners = complex.corners(face);
+  Polygon polygon(corners.begin(), corners.end());
+  HalfPlane* sides = sides_.data() + side_offset_[face];
   double width = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec2 along = polygon[(i + 1) % polygon.size()] - polygon[i];
     const double length = along.norm();
     const Vec2 n = length > 0 ? Vec2(along.y() / length, -along.x() / length) : Vec2(0, 0);  // outward
-    sides_[begin + i] = {n.x(), n.y(), n.dot(polygon[i])};
+    sides[i] = {n.x(), n.y(), n.dot(polygon[i])};
     double depth = 0;
     for (const Vec2& p : polygon) {
-      depth = std::max(depth, sides_[begin + i].d - n.dot(p));
+      depth = std::max(depth, sides[i].d - n.dot(p));
     }
     width = length > 0 ? std::min(width, depth) : width;
   }
   const double inset = std::min(margin, 0.2 * width);
   Polygon kept;
-  for (std::size_t i = begin; i < end; ++i) {
-    sides_[i].d -= inset;
-    clip(polygon, {sides_[i].nx, sides_[i].ny}, sides_[i].d, kept);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    sides[i].d -= inset;
+    clip(polygon, {sides[i].nx, sides[i].ny}, sides[i].d, kept);
     polygon.swap(kept);
   }
   return polygon;

@@ -24,11 +24,8 @@ LineGrid::LineGrid(const CellComplex& complex, double reach, double azimuth) : g
     for (const std::int32_t layer : l.layers) {
       carries[static_cast<std::size_t>(layer)] = 1;
     }
-    std::bitset<kAzimuthSteps> faces;
-    for (std::size_t step = 0; step < faces.size(); ++step) {
-      faces[step] = angle_between(l.line.theta, azimuth_of(static_cast<std::uint8_t>(step))) <= azimuth;
-    }
-    plan_lines_.push_back({l.line.normal(), l.line.direction(), l.line.d, l.line.theta, carries, faces});
+    plan_lines_.push_back({l.line.normal(), l.line.direction(), l.line.d, l.line.theta, carries,
+                           azimuths_on(l.line.theta, azimuth)});
   }
   std::vector<std::pair<std::size_t, std::int32_t>> entries;
   const double touch = reach + kBin * 0.7072;  // half a bin's diagonal

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <bitset>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "common/cells/plan_grid.h"
-#include "common/cloud/cloud.h"
+#include "common/cloud/azimuth_set.h"
 
 namespace roomcut::weigh_faces {
 
@@ -16,7 +15,7 @@ struct PlanLine {
   Vec2 normal, direction;
   double d, theta;
   std::vector<std::uint8_t> carries;  // per layer: whether the line may carry a wall there
-  std::bitset<kAzimuthSteps> faces;   // per azimuth of a point: whether its wall may lie on the line
+  AzimuthSet faces;                   // per azimuth of a point: whether its wall may lie on the line
   double distance(const Vec2& p) const { return normal.dot(p) - d; }
   double along(const Vec2& p) const { return direction.dot(p); }
 };

@@ -21,7 +21,8 @@ namespace {
 constexpr const char *kCloud = "10_ingest/cloud.h5", *kSlices = "20_slice/slices.h5",
                      *kHough = "30_detect_lines/hough.h5", *kCells = "50_partition/cells.h5",
                      *kWeights = "55_weigh_faces/weights.h5", *kTerms = "60_raycast/data_terms.h5",
-                     *kLabels = "70_graphcut/labels.h5";
+                     *kLabels = "70_graphcut/labels.h5", *kFinalCells = "90_final/cells.h5",
+                     *kRooms = "rooms.h5";
 
 const CellsFile& seed_cells() {
   static const CellsFile kFile = read_cells(seeds() / kCells);
@@ -72,6 +73,12 @@ void labels(std::string_view edits) {
   read_labels(file.path(), seed_cells());
 }
 
+void rooms(std::string_view edits) {
+  static const CellsFile kFinal = read_cells(seeds() / kFinalCells);
+  const PrivateFile file(edited_artefact(kRooms, edits), ".h5");
+  read_rooms(file.path(), kFinal);
+}
+
 /// The bytes of the container as they come: every artefact is read through one parser. What follows is what
 /// the inspecting programs do, and a reader of the type that the first seeds have.
 void hdf5(std::string_view bytes) {
@@ -91,7 +98,8 @@ constexpr std::array kTargets{Target{"hdf5", Mutation::kBytes, hdf5, kLabels},
                               Target{"cells", Mutation::kHdf5Edits, cells, kCells},
                               Target{"weights", Mutation::kHdf5Edits, weights, kWeights},
                               Target{"data_terms", Mutation::kHdf5Edits, data_terms, kTerms},
-                              Target{"labels", Mutation::kHdf5Edits, labels, kLabels}};
+                              Target{"labels", Mutation::kHdf5Edits, labels, kLabels},
+                              Target{"rooms", Mutation::kHdf5Edits, rooms, kRooms}};
 
 }  // namespace
 

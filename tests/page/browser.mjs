@@ -10,7 +10,10 @@ import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 
 export const [source, build, packages] = process.argv.slice(2, 5).map((path) => resolve(path));
-const { ScanCoordinates } = await import(pathToFileURL(join(source, "stages/tools/report/page/src/data/coordinates.js")).href);
+const page = (file) => import(pathToFileURL(join(source, "stages/tools/report/page/src", file)).href);
+const { ScanCoordinates } = await page("data/coordinates.js");
+/** The page's colours, here without the page's data. */
+export const colours = await page("colours.js");
 const kSkipped = 77;
 const kBrowsers = ["/usr/bin/chromium", "/usr/bin/chromium-browser"];
 const kSlow = 300000; // [ms] a machine that builds beside the test is slow

@@ -3,7 +3,7 @@
 import { join } from "node:path";
 import { make, need, openBrowser, openReport, run, source, build, temporaryFolder } from "./browser.mjs";
 import { editsLines, movesWall } from "./edits.mjs";
-import { agreesWithTheRun, asksAboutAnOpening, looksAtModel, looksAtPlan, looksAtTables, nothingWrong, printsDecently, worksWithTheKeyboard } from "./looks.mjs";
+import { agreesWithTheRun, asksAboutAnOpening, isSeenByAll, looksAtModel, looksAtPlan, looksAtTables, nothingWrong, printsDecently, worksWithTheKeyboard } from "./looks.mjs";
 
 need();
 const folder = temporaryFolder();
@@ -13,6 +13,7 @@ run(join(build, "bin", "synthesize"), ["-q", "--scene", join(source, "tests/data
 make("run", scan, work);
 const { browser, page } = await openBrowser();
 await openReport(page, work);
+await isSeenByAll(page);
 await printsDecently(page);
 await worksWithTheKeyboard(page);
 await looksAtModel(page, "demo");

@@ -2,7 +2,8 @@
 // What every report must show, whatever the building.
 import assert from "node:assert/strict";
 import { join } from "node:path";
-import { json, look, screenshot, settled, step, windowOf } from "./browser.mjs";
+import { colours, json, look, screenshot, settled, step, windowOf } from "./browser.mjs";
+import { areToldApart, growsLighter } from "./sight.mjs";
 
 const kModel = "#model-canvas > canvas";
 const kPlan = "#plan-canvas > canvas";
@@ -240,6 +241,15 @@ export async function worksWithTheKeyboard(page) {
   });
 }
 
+/** Its colours are those of the pictures (common/picture/colour_map.h). */
+export async function isSeenByAll(page) {
+  await step("colours that mean different things stay apart for the colour-blind", async () => {
+    colours.useColours(await page.evaluate(() => window.roomcut.run.facts.colours));
+    areToldApart(colours);
+    growsLighter(colours);
+  });
+}
+
 /** What the page works out for itself must agree with what the stages wrote. */
 export async function agreesWithTheRun(page, work) {
   const summary = json(join(work, "summary.json"));
@@ -249,7 +259,10 @@ export async function agreesWithTheRun(page, work) {
     assert.ok(worst.cells > 100);
   });
   await step("storeys and rooms of the cells are those of summary.json", async () => {
-    const rooms = await page.evaluate(() => window.roomcut.run.storeys.rooms.map(({ storey, area }) => ({ storey, area })));
+    const rooms = await page.evaluate(() => {
+      const { complex, storeys } = window.roomcut.run;
+      return storeys.rooms.map(({ storey, plan }) => ({ storey, area: [...plan].reduce((sum, face) => sum + complex.areas[face], 0) }));
+    });
     assert.equal(rooms.length, summary.rooms.length);
     summary.rooms.forEach((room, i) => {
       assert.equal(rooms[i].storey, room.storey);

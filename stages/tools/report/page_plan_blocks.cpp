@@ -128,6 +128,20 @@ void add_evidence(const std::filesystem::path& path, const CellsFile& cells, Pag
   }
 }
 
+/// As extract found them; before it has run all that is empty is one storey without rooms.
+CellRooms rooms_of(const StageRun& run, const std::string& pass, const CellsFile& cells,
+                   const Labels& labels) {
+  if (pass.empty() && run.has_input("rooms")) {
+    return read_rooms(run.input("rooms"), cells);
+  }
+  CellRooms rooms;
+  for (std::size_t cell = 0; cell < cells.complex.cells(); ++cell) {
+    rooms.storey.push_back(is_empty(labels.label, cell) ? 0 : -1);
+    rooms.room.push_back(-1);
+  }
+  return rooms;
+}
+
 /// The prefix of the inputs of the second pass, or of the first one when that is all there is.
 bool add_cells(const StageRun& run, const std::string& pass, std::vector<PageBlock>& blocks) {
   if (!run.has_input(pass + "cells") || !run.has_input(pass + "weights") || !run.has_input(pass + "terms") ||
@@ -144,6 +158,9 @@ bool add_cells(const StageRun& run, const std::string& pass, std::vector<PageBlo
   block.add("label", labels.label);
   block.add("margin", labels.margin_m3);
   block.add("unobserved", labels.unobserved);
+  const CellRooms rooms = rooms_of(run, pass, cells, labels);
+  block.add("storey", rooms.storey);
+  block.add("room", rooms.room);
   block.facts["energy"] = {{"total_m3", labels.energy_m3},
                            {"data_m3", labels.data_m3},
                            {"boundary_m3", labels.boundary_m3},

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <array>
 #include <filesystem>
+#include <span>
 #include <string_view>
 
 #include "common/artefact/atomic_file.h"
 #include "common/artefact/h5.h"
 #include "common/openings/openings_io.h"
+#include "common/picture/colour_map.h"
 #include "common/pipeline/pipeline_table.h"
 #include "common/slices/slices_io.h"
 #include "common/wall_lines/wall_lines_format.h"
@@ -20,10 +22,10 @@ namespace {
 constexpr std::array kLogMembers = {"stage",   "revision", "version", "wall_s", "cpu_s",   "peak_memory_mb",
                                     "threads", "params",   "chosen",  "counts", "warnings"};
 
-/// The summary with nothing that no digest covers: of its provenance the parameters alone.
+/// The summary with nothing that no digest covers.
 Json summary_facts(const std::filesystem::path& path) {
   Json facts = read_json_artefact(path, artefacts::kSummary);
-  facts["provenance"] = {{"params_json", read_provenance(path).params_json}};
+  facts.erase("provenance");
   return facts;
 }
 
@@ -68,10 +70,30 @@ void add_slices(const StageRun& run, PageBlockBuilder& block) {
   block.add("histogram_area", std::vector<float>(histogram.area_m2.begin(), histogram.area_m2.end()));
 }
 
+Json stops_json(std::span<const Colour> stops) {
+  Json list = Json::array();
+  for (const Colour& colour : stops) {
+    list.push_back({colour.r, colour.g, colour.b});
+  }
+  return list;
+}
+
+/// The page draws in the colours of the pictures.
+Json colours_json() {
+  Json categorical = Json::array();
+  for (const NamedColour& item : categorical_colours()) {
+    categorical.push_back({item.name, hex(item.colour)});
+  }
+  return {{"categorical", categorical},
+          {"sequential", stops_json(sequential_stops())},
+          {"diverging", stops_json(diverging_stops())}};
+}
+
 }  // namespace
 
 void add_run_blocks(const StageRun& run, std::vector<PageBlock>& blocks) {
   PageBlockBuilder facts("run");
+  facts.facts["colours"] = colours_json();
   if (run.has_input("slices")) {
     add_slices(run, facts);
   }

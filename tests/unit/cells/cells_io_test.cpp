@@ -48,6 +48,8 @@ class CellsIo : public testing::Test {
     return labels;
   }
 
+  CellRooms rooms() const { return {{-1, 0, -1, -1, 1, -1}, {-1, 1, -1, -1, 0, -1}}; }
+
   DataTerms terms() const {
     DataTerms terms;
     terms.reset(cells_.complex);
@@ -198,6 +200,11 @@ TEST_F(CellsIo, EvidenceAndLabelsComeBackAsTheyWere) {
   EXPECT_EQ(l.energy_m3, 1.75);
   EXPECT_EQ(l.boundary_m3, 0.25);
   EXPECT_EQ(l.repair_flips, 3);
+
+  write_rooms(folder_ / "rooms.h5", rooms(), cells_, provenance_);
+  const CellRooms r = read_rooms(folder_ / "rooms.h5", cells_);
+  EXPECT_EQ(r.storey, rooms().storey);
+  EXPECT_EQ(r.room, rooms().room);
 }
 
 TEST_F(CellsIo, FilesOfOtherCellsAreRefused) {
@@ -209,6 +216,8 @@ TEST_F(CellsIo, FilesOfOtherCellsAreRefused) {
   other = read_cells(folder_ / "other.h5");
   EXPECT_EQ(code_of([&] { read_weights(folder_ / "weights.h5", other); }), errors::kArtefactMismatch.id);
   EXPECT_EQ(code_of([&] { read_labels(folder_ / "labels.h5", other); }), errors::kArtefactMismatch.id);
+  write_rooms(folder_ / "rooms.h5", rooms(), cells_, provenance_);
+  EXPECT_EQ(code_of([&] { read_rooms(folder_ / "rooms.h5", other); }), errors::kArtefactMismatch.id);
   EXPECT_EQ(code_of([&] { read_labels(folder_ / "weights.h5", cells_); }), errors::kArtefactType.id);
 }
 
@@ -227,6 +236,12 @@ TEST_F(CellsIo, ValuesOutOfRangeAreRefusedAndWrongSizesAreABug) {
   EXPECT_EQ(code_of([&] { read_labels(folder_ / "labels.h5", cells_); }), errors::kArtefactDamaged.id);
   three.label.pop_back();
   EXPECT_THROW(write_labels(folder_ / "labels.h5", three, cells_, provenance_), std::logic_error);
+  CellRooms below = rooms();
+  below.room[0] = -2;
+  write_rooms(folder_ / "rooms.h5", below, cells_, provenance_);
+  EXPECT_EQ(code_of([&] { read_rooms(folder_ / "rooms.h5", cells_); }), errors::kArtefactDamaged.id);
+  below.storey.pop_back();
+  EXPECT_THROW(write_rooms(folder_ / "rooms.h5", below, cells_, provenance_), std::logic_error);
 }
 
 }  // namespace

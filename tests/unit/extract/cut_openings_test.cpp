@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "common/cells/face_locator.h"
 #include "common/random/counter_random.h"
 #include "stages/extract/extract.h"
 #include "tests/unit/extract/grid_complex.h"
@@ -73,6 +74,27 @@ TEST(CutOpenings, ADoorAddsExactlyItsVolumeAndTheRoomsStayApart) {
   }
 }
 
+TEST(CutOpenings, EveryCellKnowsItsStoreyAndItsRoom) {
+  const TwoRooms rooms;
+  for (const auto& openings : {std::vector<Opening>{}, {rooms.door(1.7, 2.6, 2.05)}}) {
+    const Model model = extract_model(rooms.complex, rooms.labels, openings, {});
+    ASSERT_EQ(model.cell_rooms.room.size(), rooms.complex.cells());
+    ASSERT_EQ(model.cell_rooms.storey.size(), rooms.complex.cells());
+    std::vector<double> volume(model.rooms.size(), 0);
+    for (std::size_t cell = 0; cell < rooms.complex.cells(); ++cell) {
+      const bool empty = is_empty(rooms.labels.label, cell);
+      EXPECT_EQ(model.cell_rooms.storey[cell], empty ? 0 : -1);
+      EXPECT_EQ(model.cell_rooms.room[cell] >= 0, empty);
+      if (empty) {
+        volume.at(static_cast<std::size_t>(model.cell_rooms.room[cell])) += rooms.complex.volume(cell);
+      }
+    }
+    for (std::size_t i = 0; i < volume.size(); ++i) {
+      EXPECT_NEAR(volume[i], model.rooms[i].volume_m3, 1e-9) << "room " << i;
+    }
+  }
+}
+
 TEST(CutOpenings, TheRefinedComplexIsConforming) {
   const TwoRooms rooms;
   const OpenableComplex cut = cut_openings(
@@ -126,6 +148,13 @@ TEST(CutOpenings, APartThatTheCutHadEmptiedIsClosedAboveTheHead) {
   EXPECT_EQ(model.rooms.size(), 2U) << "the rooms are those of the closed wall";
   ASSERT_EQ(model.openings.size(), 1U);
   EXPECT_NEAR(model.openings[0].volume_m3, model.empty_m3 - closed_m3(rooms), 1e-9);
+  std::vector<int> found;  // rooms of the cells where the wall is gone, and of those beside them
+  for (const Vec2& p : {Vec2(4.05, 2.6), Vec2(3, 2.6), Vec2(6, 2.6)}) {
+    const auto cell = static_cast<std::size_t>(FaceLocator(rooms.complex).cell_at({p.x(), p.y(), 1}));
+    EXPECT_EQ(model.cell_rooms.storey[cell], 0);
+    found.push_back(model.cell_rooms.room[cell]);
+  }
+  EXPECT_EQ(found, (std::vector<int>{-1, 1, 0})) << "the door is no part of a room";
 }
 
 TEST(CutOpenings, WhatDoesNotFitTheLabelsStaysClosedAndSaysWhy) {

@@ -34,7 +34,7 @@ function showFace(run, plan, cell, face) {
     return;
   }
   const { complex } = run;
-  const layer = Math.floor(cell / complex.faces);
+  const layer = complex.layerOf(cell);
   host.replaceChildren(
     make("button", {
       type: "button",
@@ -48,7 +48,7 @@ function showFace(run, plan, cell, face) {
         plan.select({ cell });
       },
     }),
-    ...(face?.kind === kWall ? whyWallFace(complex, face.index % complex.edges, layer) : []),
+    ...(face?.kind === kWall ? whyWallFace(complex, face.index - complex.wallFace(0, layer), layer) : []),
     ...whyCell(complex, cell, roomOf(run, cell)),
   );
 }

@@ -29,8 +29,20 @@ export class Complex {
   cell(face, layer) {
     return layer * this.faces + face;
   }
+  faceOf(cell) {
+    return cell % this.faces;
+  }
+  layerOf(cell) {
+    return Math.floor(cell / this.faces);
+  }
+  wallFace(edge, layer) {
+    return layer * this.edges + edge;
+  }
+  levelFace(face, level) {
+    return level * this.faces + face;
+  }
   volume(cell) {
-    return this.areas[cell % this.faces] * this.height(Math.floor(cell / this.faces));
+    return this.areas[this.faceOf(cell)] * this.height(this.layerOf(cell));
   }
   vertex(v) {
     return [this.block.vertices[2 * v], this.block.vertices[2 * v + 1]];
@@ -77,27 +89,13 @@ export class Complex {
   }
 }
 
-export function polygonArea(corners) {
+function polygonArea(corners) {
   let twice = 0;
   corners.forEach(([x, y], i) => {
     const [nextX, nextY] = corners[(i + 1) % corners.length];
     twice += x * nextY - nextX * y;
   });
   return 0.5 * twice;
-}
-
-/** The centre of gravity of a polygon, counted from its first corner so that products stay small. */
-export function polygonCentre(corners) {
-  const [[x0, y0]] = corners;
-  const [sum, area] = [[0, 0], polygonArea(corners)];
-  for (let i = 1; i + 1 < corners.length; ++i) {
-    const [ux, uy] = [corners[i][0] - x0, corners[i][1] - y0];
-    const [vx, vy] = [corners[i + 1][0] - x0, corners[i + 1][1] - y0];
-    const twice = ux * vy - uy * vx;
-    sum[0] += (twice * (ux + vx)) / 6;
-    sum[1] += (twice * (uy + vy)) / 6;
-  }
-  return [x0 + sum[0] / area, y0 + sum[1] / area];
 }
 
 function insideConvex(corners, x, y) {

@@ -7,13 +7,13 @@
  * @returns {{kind: string, index: number, area: number, omega: number, implied: number, points: number, beyond: number, wall: ?string}[]}
  */
 export function facesOf(complex, cell) {
-  const { block, faces } = complex;
-  const face = cell % faces;
-  const layer = Math.floor(cell / faces);
+  const { block } = complex;
+  const face = complex.faceOf(cell);
+  const layer = complex.layerOf(cell);
   const list = Array.from(complex.edgesOf(face), (e) => {
     const edge = complex.edge(e);
     const other = edge.left === face ? edge.right : edge.left;
-    const index = layer * complex.edges + e;
+    const index = complex.wallFace(e, layer);
     return {
       kind: "wall",
       index,
@@ -30,7 +30,7 @@ export function facesOf(complex, cell) {
     ["below", layer, layer - 1],
     ["above", layer + 1, layer + 1],
   ]) {
-    const index = level * faces + face;
+    const index = complex.levelFace(face, level);
     list.push({
       kind,
       index,

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Everything the page knows of one run. What the run had not made yet is null.
 
+import { useColours } from "../colours.js";
 import { loadBlock } from "./blocks.js";
 import { Complex } from "./complex.js";
 import { inLocal, ScanCoordinates } from "./coordinates.js";
-import { findStoreys } from "./storeys.js";
+import { roomsOfCells } from "./rooms.js";
 
 /**
  * @typedef {object} Run
- * @property {object} facts      block `run`: levels, histogram, noise, density, frame, summary
+ * @property {object} facts      block `run`: levels, histogram, noise, density, frame, summary, colours
  * @property {ScanCoordinates} scan  where local coordinates lie in the scan's own
  * @property {object} lines      block `lines`: detected, lines (accepted), refined, openings; GeoJSON in local coordinates
  * @property {object[]} stages   block `logs`
@@ -24,6 +25,7 @@ export async function loadRun() {
   const [facts, lines, logs, model, cloud, cells] = await Promise.all(
     ["run", "lines", "logs", "model", "cloud", "cells"].map(loadBlock),
   );
+  useColours(facts?.colours);
   const scan = new ScanCoordinates(facts?.frame ?? facts?.summary?.frame ?? lines?.detected?.roomcut?.frame);
   const complex = cells ? new Complex(cells, scan) : null;
   return {
@@ -34,7 +36,7 @@ export async function loadRun() {
     model,
     cloud,
     complex,
-    storeys: complex ? findStoreys(complex, facts?.summary, scan) : null,
+    storeys: complex ? roomsOfCells(complex, facts?.summary) : null,
     box: model ? boxOf(model.vertices) : (facts?.bbox ?? [0, 0, 0, 1, 1, 1]),
   };
 }

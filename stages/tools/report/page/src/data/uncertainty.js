@@ -82,7 +82,7 @@ function rootSum(effect, deviations, valueOf) {
 /**
  * Perimeter [m] of each room, and the standard deviations of area, perimeter and volume; `unknown` when a side of the room lies on a
  * line without standard deviation.
- * @param {{cells: number[], plan: Set<number>}[]} rooms of data/storeys.js
+ * @param {{cells: number[], plan: Set<number>}[]} rooms of data/rooms.js
  */
 export function roomUncertainties(complex, rooms, refined) {
   const deviations = lineDeviations(complex, refined);
@@ -90,8 +90,8 @@ export function roomUncertainties(complex, rooms, refined) {
     const { effect, perimeter, unknown } = derivatives(complex, plan, deviations);
     const layers = new Map();
     for (const cell of cells) {
-      const layer = Math.floor(cell / complex.faces);
-      layers.set(layer, (layers.get(layer) ?? new Set()).add(cell % complex.faces));
+      const layer = complex.layerOf(cell);
+      layers.set(layer, (layers.get(layer) ?? new Set()).add(complex.faceOf(cell)));
     }
     const volume = deviations.map(() => ({ area: 0, turn: 0 }));
     for (const [layer, faces] of layers) {

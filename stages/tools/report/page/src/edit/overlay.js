@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What editing draws over the plan: where lines were, handles, locks, the points near the selected line.
 
-const kMoved = "#d55e00";
+import { named } from "../colours.js";
+
 const kBefore = "#5b6770";
 const kHandle = 5; // pixels
 
@@ -15,7 +16,7 @@ export function paintEditing(context, view, tool) {
       if (old) {
         view.paintSegment(context, old.a, old.b, kBefore, 1.5, [4, 3]);
       }
-      view.paintSegment(context, line.a, line.b, kMoved, 3);
+      view.paintSegment(context, line.a, line.b, named("vermilion"), 3);
     }
     if (line.locked) {
       paintLock(context, viewport.toPixels([(line.a[0] + line.b[0]) / 2, (line.a[1] + line.b[1]) / 2]));
@@ -46,11 +47,11 @@ function paintPoints(context, view, shown) {
 }
 
 function paintSelected(context, view, line) {
-  view.paintSegment(context, line.a, line.b, kMoved, 3);
+  view.paintSegment(context, line.a, line.b, named("vermilion"), 3);
   for (const end of [line.a, line.b]) {
     const [x, y] = view.viewport.toPixels(end);
     context.fillStyle = "#ffffff";
-    context.strokeStyle = kMoved;
+    context.strokeStyle = named("vermilion");
     context.lineWidth = 2;
     context.fillRect(x - kHandle, y - kHandle, 2 * kHandle, 2 * kHandle);
     context.strokeRect(x - kHandle, y - kHandle, 2 * kHandle, 2 * kHandle);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the surface can be coloured by. Each colouring names the surface it is drawn on, a colour per triangle and its legend.
 
-import { css, kKind, kKindName, kOkabeIto, kUnknown, rgbOf, sequential } from "../colours.js";
+import { categorical, css, kKind, kKindName, kUnknown, rgbOf, sequential } from "../colours.js";
 import { kWall } from "./surfaces.js";
 
 const kKindRgb = kKind.map(rgbOf);
@@ -43,8 +43,8 @@ export function modelColourings(model) {
     {
       name: "Storey",
       surface,
-      colourOf: (t) => rgbOf(kOkabeIto[surface.storey[t] % kOkabeIto.length]),
-      legend: { swatches: storeys.map((s) => [kOkabeIto[s % kOkabeIto.length], `storey ${s}`]) },
+      colourOf: (t) => rgbOf(categorical(surface.storey[t])),
+      legend: { swatches: storeys.map((s) => [categorical(s), `storey ${s}`]) },
     },
   ];
   if (block.region_distance) {

@@ -83,7 +83,7 @@ export function faceSurface(complex, storeyOfCell) {
       const [inside, outside] = isLeft ? [left, right] : [right, left];
       build.add(isLeft ? quad : quad.reverse(), {
         kind: kWall,
-        index: k * complex.edges + e,
+        index: complex.wallFace(e, k),
         cell: complex.cell(inside, k),
         beyond: outside < 0 ? -1 : complex.cell(outside, k),
       });
@@ -99,7 +99,7 @@ export function faceSurface(complex, storeyOfCell) {
       const [inside, outside] = above ? [l, l - 1] : [l - 1, l];
       build.add(above ? corners.reverse() : corners, {
         kind: above ? kFloor : kCeiling,
-        index: l * complex.faces + f,
+        index: complex.levelFace(f, l),
         cell: complex.cell(f, inside),
         beyond: outside < 0 || outside >= complex.layers ? -1 : complex.cell(f, outside),
       });

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is written over the plan of a slice: openings, and the number and area of each room.
 
-const kOpening = "#009e73";
-const kSelected = "#d55e00";
+import { named } from "../colours.js";
+
 const kWords = "#3a444b";
 
 /** Openings that reach into the slice: the wall is open between the two jambs. */
@@ -10,7 +10,7 @@ export function paintOpenings(context, view) {
   const { slice, selected } = view.state;
   for (const { id, a, b, thickness, sill, head } of view.state.openings) {
     if (sill < slice.high && head > slice.low) {
-      const colour = selected?.opening === id ? kSelected : kOpening;
+      const colour = named(selected?.opening === id ? "vermilion" : "green");
       const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
       const across = [(-(b[1] - a[1]) / length) * (thickness / 2), ((b[0] - a[0]) / length) * (thickness / 2)];
       const shifted = ([x, y], side) => [x + side * across[0], y + side * across[1]];

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the cells of a layer can be filled with.
 
-import { css, diverging, sequential } from "../colours.js";
+import { css, diverging, named, sequential } from "../colours.js";
 
 const kSolid = "#e1e1e1";
 const kEmpty = "#a9d3ee";
-const kUnobserved = "#cc79a7";
 
 /** @returns {{name: string, legend: object, colourOf: (cell: number) => ?string}[]} */
 export function cellFills(complex) {
   const { block } = complex;
+  const hardlySeen = named("pink");
   const unobserved = (cell) => block.unobserved[cell] === 1 && block.label[cell] === 1;
   const list = [
     { name: "none", legend: {}, colourOf: () => null },
     {
       name: "label",
-      legend: { swatches: [[kEmpty, "empty"], [kSolid, "solid or outside"], [kUnobserved, "empty, hardly observed"]] },
-      colourOf: (cell) => (unobserved(cell) ? kUnobserved : block.label[cell] === 1 ? kEmpty : kSolid),
+      legend: { swatches: [[kEmpty, "empty"], [kSolid, "solid or outside"], [hardlySeen, "empty, hardly observed"]] },
+      colourOf: (cell) => (unobserved(cell) ? hardlySeen : block.label[cell] === 1 ? kEmpty : kSolid),
     },
     {
       name: "margin of the decision",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The part "Plan": one slice from above, with its tools, and why what was clicked came out so.
 
+import { named } from "../colours.js";
 import { byId, make } from "../dom.js";
 import { loadSlice, openingsOf, slicesOf, wallLines } from "../data/run.js";
 import { drawLegend } from "../model/colourings.js";
@@ -78,12 +79,12 @@ export class PlanPanel {
   updateLegend() {
     const swatches = [...(this.state.fill.legend.swatches ?? [])];
     if (this.state.evidence === "walls") {
-      swatches.push(["#0072b2", "piece of a wall"], ["#e69f00", "clutter"]);
+      swatches.push([named("blue"), "piece of a wall"], [named("orange"), "clutter"]);
     } else if (this.state.evidence === "occupancy") {
       swatches.push(["#1e1e1e", "points over all of the height"], ["#e1e1e1", "over little of it"]);
     }
     if (this.state.show.openings && this.state.openings.length > 0) {
-      swatches.push(["#009e73", "opening"]);
+      swatches.push([named("green"), "opening"]);
     }
     drawLegend(this.legend, { ...this.state.fill.legend, swatches });
   }

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A slice's occupancy grid as pictures, one pixel a cell.
 
-import { rgbOf } from "../colours.js";
-
-const kWall = rgbOf("#0072b2");
-const kClutter = rgbOf("#e69f00");
+import { named, rgbOf } from "../colours.js";
 
 /**
  * @param slice the block of the slice
@@ -21,11 +18,12 @@ export function rasterOf(slice, what) {
   canvas.width = highX - lowX + 1;
   canvas.height = highY - lowY + 1;
   const context = canvas.getContext("2d");
+  const [wall, clutter] = [rgbOf(named("blue")), rgbOf(named("orange"))];
   const image = context.createImageData(canvas.width, canvas.height);
   slice.ix.forEach((ix, i) => {
     const at = 4 * ((highY - slice.iy[i]) * canvas.width + (ix - lowX));
     const light = Math.round(225 - (195 * slice.coverage[i]) / 255);
-    const colour = what === "walls" ? (slice.boundary[i] ? kWall : kClutter) : [light, light, light];
+    const colour = what === "walls" ? (slice.boundary[i] ? wall : clutter) : [light, light, light];
     image.data.set([...colour, 255], at);
   });
   context.putImageData(image, 0, 0);

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Draws the plan of one slice: evidence, cells, wall lines. What is drawn is decided by `state`; panel.js changes it.
 
-import { kOkabeIto } from "../colours.js";
+import { categorical, named } from "../colours.js";
 import { paintOpenings, paintRooms } from "./annotations.js";
 import { Viewport } from "./viewport.js";
 
 const kWallEdge = "#141414";
 const kThinEdge = "#b4b4b4";
-// Not the colour of what is selected or moved.
-const kLineColours = kOkabeIto.slice(0, 5);
-const kSelected = "#d55e00";
+const kLineColours = 5; // of the row; the next one is that of what is selected or moved
 
 export class PlanView {
   /** @param run @param {object} state {slice, block, raster, fill, show, lines, selected} */
@@ -103,15 +101,15 @@ export class PlanView {
     const { complex } = this.run;
     const { selected } = this.state;
     const { layer } = this.state.slice;
-    if (selected?.cell !== undefined && Math.floor(selected.cell / complex.faces) === layer) {
-      this.tracePolygon(context, complex.corners(selected.cell % complex.faces));
-      context.strokeStyle = kSelected;
+    if (selected?.cell !== undefined && complex.layerOf(selected.cell) === layer) {
+      this.tracePolygon(context, complex.corners(complex.faceOf(selected.cell)));
+      context.strokeStyle = named("vermilion");
       context.lineWidth = 3;
       context.stroke();
     }
     if (selected?.edge !== undefined && selected.layer === layer) {
       const { a, b } = complex.edge(selected.edge);
-      this.paintSegment(context, a, b, kSelected, 5);
+      this.paintSegment(context, a, b, named("vermilion"), 5);
     }
   }
 
@@ -153,7 +151,7 @@ export class PlanView {
       const inSlice = !line.properties.levels || line.properties.levels.includes(slice.index);
       const isSelected = selected?.line === line.id;
       context.globalAlpha = inSlice ? 1 : 0.25;
-      const colour = isSelected ? kSelected : dashed ? "#000000" : kLineColours[i % kLineColours.length];
+      const colour = isSelected ? named("vermilion") : dashed ? "#000000" : categorical(i % kLineColours);
       this.paintSegment(context, line.a, line.b, colour, isSelected ? 4 : dashed ? 1 : 2, dashed ? [6, 4] : []);
       context.globalAlpha = 1;
     });

@@ -17,7 +17,7 @@ function table(head, rows) {
 /** @returns {Element[]} what is known of a cell; `room` is its entry of the summary, or null */
 export function whyCell(complex, cell, room) {
   const { block } = complex;
-  const layer = Math.floor(cell / complex.faces);
+  const layer = complex.layerOf(cell);
   const empty = block.label[cell] === 1;
   const beta = block.evidence_beta?.[cell];
   const flip = flipCost(complex, cell);
@@ -25,7 +25,7 @@ export function whyCell(complex, cell, room) {
     make("h3", { text: `Cell ${cell}: ${empty ? "empty" : "solid"}` }),
     make("p", {
       class: "quiet",
-      text: `${number(complex.areas[cell % complex.faces])} m² of the plan, ${complex.heightsOf(layer)} m, ${number(complex.volume(cell))} m³, ${block.cell_points[cell]} points inside.`,
+      text: `${number(complex.areas[complex.faceOf(cell)])} m² of the plan, ${complex.heightsOf(layer)} m, ${number(complex.volume(cell))} m³, ${block.cell_points[cell]} points inside.`,
     }),
     make("p", {
       text: `The evidence gives ${number(100 * beta, 1)} % for empty. Flipping this cell alone would cost ${number(block.margin[cell], 3)} m³ of energy.`,
@@ -95,7 +95,7 @@ const signed = (value) => (value >= 0 ? "+" : "−") + number(Math.abs(value), 3
 export function whyWallFace(complex, edge, layer) {
   const { block } = complex;
   const { a, b, left, right } = complex.edge(edge);
-  const index = layer * complex.edges + edge;
+  const index = complex.wallFace(edge, layer);
   const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
   const omega = block.wall_omega[index];
   const implied = block.wall_implied[index];

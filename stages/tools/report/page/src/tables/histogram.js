@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The vertical histogram with its peaks and slices (the paper's Figure 1), as SVG, and the table of levels.
 
+import { named } from "../colours.js";
 import { byId, make, number } from "../dom.js";
 
 const kNamespace = "http://www.w3.org/2000/svg";
@@ -45,13 +46,13 @@ function picture(levels, { z0, bin_m: bin }, bins, scan) {
   const drawing = svg("svg", { width: 860, height: kHeight + 60, viewBox: `0 0 860 ${kHeight + 60}`, role: "img", "aria-label": "Vertical histogram" });
   const box = (low, high, fill, opacity, right = kLeft + kBars) =>
     drawing.append(svg("rect", { x: kLeft, y: y(high), width: right - kLeft, height: Math.max(0.5, y(low) - y(high)), fill, "fill-opacity": opacity }));
-  levels.slice(0, -1).forEach((level, i) => box(level.hi, levels[i + 1].lo, "#f0e442", 0.25));
-  levels.forEach((level) => box(level.lo, level.hi, "#56b4e9", 0.5));
+  levels.slice(0, -1).forEach((level, i) => box(level.hi, levels[i + 1].lo, named("yellow"), 0.25));
+  levels.forEach((level) => box(level.lo, level.hi, named("sky"), 0.5));
   const path = bins.reduce((d, area, i) => (area > 0 ? `${d}M${kLeft} ${y(z0 + (i + 1) * bin)}H${x(area)}V${y(z0 + i * bin)}H${kLeft}Z` : d), "");
   drawing.append(svg("path", { d: path, fill: "#282828", stroke: "#282828", "stroke-width": 0.7 }));
   let last = Infinity;
   for (const level of levels) {
-    drawing.append(svg("line", { x1: kLeft + kBars - 40, x2: kLeft + kBars, y1: y(level.z), y2: y(level.z), stroke: "#d55e00", "stroke-width": 2 }));
+    drawing.append(svg("line", { x1: kLeft + kBars - 40, x2: kLeft + kBars, y1: y(level.z), y2: y(level.z), stroke: named("vermilion"), "stroke-width": 2 }));
     const at = Math.min(y(level.z) + 4, last - 13); // labels of close peaks do not overlap
     last = at;
     drawing.append(svg("text", { x: kLeft + kBars + 8, y: at, fill: "#b34700" }, `${number(scan.captionHeight(level.z), 3)} m: ${level.cap ? "cap" : level.step ? "step" : `${number(level.area_m2, 0)} m²`}`));
