@@ -9,7 +9,7 @@ MAKEFLAGS += --no-print-directory --no-builtin-rules
 # From the command line; passed on through the environment as they were typed, so that names may hold spaces and any letters, "$" too:
 # Make expands none of them, and hands none on to another make.
 BUILD ?= build
-given := SCAN WORK CONFIG BUILD JOBS UP UNIT LEVEL STATIONS TRUTH PORT QUIET ONLY BASE OUT ROOT A B
+given := SCAN WORK CONFIG BUILD JOBS UP UNIT LEVEL STATIONS TRUTH PORT QUIET ONLY BASE OUT ROOT PRESET SWITCHES A B
 $(foreach name,$(given),$(eval override $(name) := $$(value $(name))))
 export $(given)
 # Shells call the width of a terminal COLUMNS, too: only that of the command line is meant.
@@ -25,7 +25,7 @@ generator = $$(command -v ninja > /dev/null && echo "-G Ninja")
 quiet_make = env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL
 pipeline = +@sh stages/pipeline.sh
 
-.PHONY: help deps configured build programs pipeline_programs parameters test demo run status verify view edit-lines diff-lines drop-edit layers evaluate compare accuracy accuracy-walls accuracy-weights bench fuzz robustness tidy format ready ready_tools \
+.PHONY: help deps configured build programs pipeline_programs parameters test demo run status verify view edit-lines diff-lines drop-edit layers evaluate compare accuracy ablation accuracy-walls accuracy-weights bench fuzz robustness tidy format ready ready_tools \
         $(stages) $(stages:%=rerun-%) $(stages:%=clean-%) $(stages:%=plot-%)
 
 help:
@@ -48,6 +48,8 @@ help:
 	'make parameters               after a change of parameters: pipeline.yaml, its JSON Schema, the tables of the READMEs' \
 	'make accuracy                 scores of scenes with known truth, in one table; ONLY="virtual uniform_house_*" some of' \
 	'                              them, BASE=old.json what changed since, OUT=file the JSON (work/accuracy/accuracy.json)' \
+	'                              PRESET=paper_2013: the method as published, beside the defaults' \
+	'make ablation                 what each addition to the paper is worth: all of them off, one at a time; ONLY=, SWITCHES=' \
 	'make accuracy-walls           errors of walls and heights beside their stated sigmas; ONLY="uniform_3mm …", OUT=file' \
 	'make accuracy-weights         after make accuracy: weights of the data term fitted with every building left out; ONLY=, OUT=file;' \
 	'                              ROOT=folder of its work folders, here and in make accuracy, instead of work/accuracy/' \
@@ -119,6 +121,9 @@ $(stages:%=plot-%): ready
 
 accuracy: build
 	@$(quiet_make) python3 tests/accuracy/accuracy.py "$$BUILD"
+
+ablation: build
+	@$(quiet_make) python3 tests/accuracy/ablation.py "$$BUILD"
 
 accuracy-walls: build
 	@set -f; $(quiet_make) python3 tests/accuracy/walls.py --build "$$BUILD" $${OUT:+--json "$$OUT"} $${ONLY:+--only $$ONLY}

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,6 +18,47 @@ namespace roomcut {
 /// narrower. Lines are stored with 6 decimals, so lines meant to meet in one point miss it by some 1e-6 m;
 /// nothing measurable is this small.
 inline constexpr double kPlanSnap_m = 1e-5;
+
+/// The corners of one face of a plan, counter-clockwise: a range of places [m]. Valid as long as the complex.
+class FaceCorners {
+ public:
+  class Iterator {
+   public:
+    using iterator_category = std::forward_iterator_tag;
+    using value_type = Vec2;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const Vec2*;
+    using reference = const Vec2&;
+
+    Iterator() = default;
+    Iterator(const Vec2* places, const std::int32_t* vertex) : places_(places), vertex_(vertex) {}
+    reference operator*() const { return places_[*vertex_]; }
+    pointer operator->() const { return places_ + *vertex_; }
+    Iterator& operator++() {
+      ++vertex_;
+      return *this;
+    }
+    Iterator operator++(int) { return {places_, vertex_++}; }
+    bool operator==(const Iterator& other) const { return vertex_ == other.vertex_; }
+
+   private:
+    const Vec2* places_ = nullptr;
+    const std::int32_t* vertex_ = nullptr;
+  };
+
+  FaceCorners(const Vec2* places, std::span<const std::int32_t> vertices)
+      : places_(places), vertices_(vertices) {}
+  std::size_t size() const { return vertices_.size(); }
+  const Vec2& operator[](std::size_t i) const { return places_[vertices_[i]]; }
+  /// The corner that follows corner i: the other end of the side that begins there.
+  const Vec2& after(std::size_t i) const { return (*this)[i + 1 < size() ? i + 1 : 0]; }
+  Iterator begin() const { return {places_, vertices_.data()}; }
+  Iterator end() const { return {places_, vertices_.data() + size()}; }
+
+ private:
+  const Vec2* places_;
+  std::span<const std::int32_t> vertices_;
+};
 
 /// The cell decomposition (paper §2): one convex subdivision of the plan, the same in every layer, times the
 /// layers between neighbouring levels. All 3D elements are implicit products:
@@ -38,6 +82,9 @@ struct CellComplex {
     std::int32_t v0, v1;       ///< vertices
     std::int32_t left, right;  ///< faces left and right of v0 -> v1; -1 = beyond the bounding box
     std::int32_t line;         ///< index into lines; -1 = side of the bounding box
+
+    /// The face on the other side than `face`, which must be one of the two.
+    std::int32_t across(std::int32_t face) const { return left == face ? right : left; }
   };
   std::vector<Edge> edges;
 
@@ -60,9 +107,22 @@ struct CellComplex {
   std::size_t faces() const { return face_offset.empty() ? 0 : face_offset.size() - 1; }
   std::size_t layers() const { return levels.empty() ? 0 : levels.size() - 1; }
   std::size_t cells() const { return faces() * layers(); }
+
   std::size_t cell(std::size_t face, std::size_t layer) const { return layer * faces() + face; }
+  std::size_t face_of(std::size_t cell) const { return cell % faces(); }
+  std::size_t layer_of(std::size_t cell) const { return cell / faces(); }
   std::size_t wall_face(std::size_t edge, std::size_t layer) const { return layer * edges.size() + edge; }
+  std::size_t edge_of_wall(std::size_t wall_face) const { return wall_face % edges.size(); }
+  std::size_t layer_of_wall(std::size_t wall_face) const { return wall_face / edges.size(); }
   std::size_t level_face(std::size_t face, std::size_t level) const { return level * faces() + face; }
+  std::size_t face_of_level(std::size_t level_face) const { return level_face % faces(); }
+  std::size_t level_of(std::size_t level_face) const { return level_face / faces(); }
+
+  /// Vertices of a face, counter-clockwise, and its edges, each from the vertex at its place to the next.
+  std::span<const std::int32_t> vertices_of(std::size_t face) const { return part_of(face_vertex, face); }
+  std::span<const std::int32_t> edges_of(std::size_t face) const { return part_of(face_edge, face); }
+  FaceCorners corners(std::size_t face) const { return {vertices.data(), vertices_of(face)}; }
+
   double height(std::size_t layer) const { return levels[layer + 1] - levels[layer]; }
   double length(std::size_t edge) const {
     return (vertices[edges[edge].v1] - vertices[edges[edge].v0]).norm();
@@ -71,6 +131,17 @@ struct CellComplex {
   double area(std::size_t face) const;
   /// Mean of a face's corners, weighted by area: always inside.
   Vec2 centroid(std::size_t face) const;
+  /// Volume of a cell [m^3].
+  double volume(std::size_t cell) const { return area(face_of(cell)) * height(layer_of(cell)); }
+  /// The middle of a cell: its face's centroid, at half its height.
+  Vec3 centre(std::size_t cell) const;
+  /// The layer that holds height z, which begins at its lower level; -1 = below or above all.
+  std::int32_t layer_at(double z) const;
+
+ private:
+  std::span<const std::int32_t> part_of(const std::vector<std::int32_t>& corners, std::size_t face) const {
+    return {corners.data() + face_offset[face], corners.data() + face_offset[face + 1]};
+  }
 };
 
 /// Checks conformity, orientation, convexity, adjacency, edges against their lines (kPlanSnap_m) and that the
@@ -127,7 +198,23 @@ struct DataTerms {
   std::vector<double> d_solid;  ///< cost of the label solid: V beta + what its own faces' fronts add [m^3]
 };
 
-enum class Label : std::uint8_t { kSolid = 0, kEmpty = 1 };
+/// What a cell is labelled, in the byte that stands for it.
+struct Label {
+  static constexpr std::uint8_t kSolid = 0, kEmpty = 1;
+};
+
+/// Whether a cell is empty. Beyond the bounding box, for which -1 stands, all is solid.
+inline bool is_empty(const std::vector<std::uint8_t>& label, std::int64_t cell) {
+  return cell >= 0 && label[static_cast<std::size_t>(cell)] == Label::kEmpty;
+}
+inline bool is_empty(const std::vector<std::uint8_t>& label, std::size_t cell) {
+  return label[cell] == Label::kEmpty;
+}
+/// The same for the cell of a face, -1 = beyond the bounding box, in a layer.
+inline bool is_empty(const CellComplex& complex, const std::vector<std::uint8_t>& label, std::int32_t face,
+                     std::size_t layer) {
+  return face >= 0 && is_empty(label, complex.cell(static_cast<std::size_t>(face), layer));
+}
 
 struct Labels {
   std::vector<std::uint8_t> label;       ///< Label per cell

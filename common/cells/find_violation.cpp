@@ -127,12 +127,11 @@ std::string check_corners(const CellComplex& complex) {
 
 std::string check_convex(const CellComplex& complex) {
   for (std::size_t f = 0; f < complex.faces(); ++f) {
-    const std::int64_t begin = complex.face_offset[f];
-    const std::int64_t corners = complex.face_offset[f + 1] - begin;
-    for (std::int64_t i = 0; i < corners; ++i) {
-      const Vec2& p = complex.vertices[complex.face_vertex[begin + i]];
-      const Vec2 a = p - complex.vertices[complex.face_vertex[begin + (i + corners - 1) % corners]];
-      const Vec2 b = complex.vertices[complex.face_vertex[begin + (i + 1) % corners]] - p;
+    const FaceCorners corners = complex.corners(f);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Vec2& p = corners.after(i);
+      const Vec2 a = p - corners[i];
+      const Vec2 b = corners.after(i + 1 < corners.size() ? i + 1 : 0) - p;
       // How far the shorter side's end lies to the right of the longer side's line.
       if (a.x() * b.y() - a.y() * b.x() <
           -kStraight_m * std::sqrt(std::max(a.squaredNorm(), b.squaredNorm()))) {

@@ -23,9 +23,9 @@ struct Interface {
 /// within a layer its wall faces by edge; then level by level, by face. Allocates nothing per face.
 template <class F>
 void for_each_interface(const CellComplex& complex, F&& f) {
-  const auto faces = static_cast<std::int64_t>(complex.faces());
   const auto cell_of = [&](std::int32_t face, std::size_t layer) {
-    return face < 0 ? Interface::kOutsideCell : static_cast<std::int64_t>(layer) * faces + face;
+    return face < 0 ? Interface::kOutsideCell
+                    : static_cast<std::int64_t>(complex.cell(static_cast<std::size_t>(face), layer));
   };
   std::vector<double> measure(complex.edges.size());
   for (std::size_t e = 0; e < complex.edges.size(); ++e) {
@@ -44,11 +44,11 @@ void for_each_interface(const CellComplex& complex, F&& f) {
   }
   const std::size_t layers = complex.layers();
   for (std::size_t l = 0; l < complex.levels.size(); ++l) {
-    for (std::int64_t i = 0; i < faces; ++i) {
+    for (std::size_t i = 0; i < complex.faces(); ++i) {
       const std::int64_t below =
-          l == 0 ? Interface::kOutsideCell : static_cast<std::int64_t>(l - 1) * faces + i;
+          l == 0 ? Interface::kOutsideCell : static_cast<std::int64_t>(complex.cell(i, l - 1));
       const std::int64_t above =
-          l == layers ? Interface::kOutsideCell : static_cast<std::int64_t>(l) * faces + i;
+          l == layers ? Interface::kOutsideCell : static_cast<std::int64_t>(complex.cell(i, l));
       f(Interface{false, complex.level_face(i, l), below, above, measure[i]});
     }
   }
@@ -57,15 +57,15 @@ void for_each_interface(const CellComplex& complex, F&& f) {
 /// Calls f(Interface, other cell or kOutsideCell) for every face of one cell. O(corners of its plan face).
 template <class F>
 void for_each_interface_of(const CellComplex& complex, std::size_t cell, F&& f) {
-  const std::size_t face = cell % complex.faces();
-  const std::size_t layer = cell / complex.faces();
+  const std::size_t face = complex.face_of(cell);
+  const std::size_t layer = complex.layer_of(cell);
   const double height = complex.height(layer);
   const auto at = [&](std::int32_t neighbour) {
     return neighbour < 0 ? Interface::kOutsideCell
                          : static_cast<std::int64_t>(complex.cell(neighbour, layer));
   };
-  for (std::int64_t i = complex.face_offset[face]; i < complex.face_offset[face + 1]; ++i) {
-    const auto e = static_cast<std::size_t>(complex.face_edge[i]);
+  for (const std::int32_t of_face : complex.edges_of(face)) {
+    const auto e = static_cast<std::size_t>(of_face);
     const CellComplex::Edge& edge = complex.edges[e];
     const Interface wall{true, complex.wall_face(e, layer), at(edge.left), at(edge.right),
                          complex.length(e) * height};
@@ -84,10 +84,7 @@ void for_each_interface_of(const CellComplex& complex, std::size_t cell, F&& f) 
 
 /// Whether the labelling has a surface at this face: one side empty, the other solid.
 inline bool is_surface(const Interface& face, const std::vector<std::uint8_t>& label) {
-  const auto empty = [&](std::int64_t cell) {
-    return cell >= 0 && label[static_cast<std::size_t>(cell)] == static_cast<std::uint8_t>(Label::kEmpty);
-  };
-  return empty(face.a) != empty(face.b);
+  return is_empty(label, face.a) != is_empty(label, face.b);
 }
 
 /// All faces of the model's surface, in the order of for_each_interface().

@@ -7,15 +7,13 @@ namespace roomcut {
 
 namespace {
 
-constexpr auto kEmpty = static_cast<std::uint8_t>(Label::kEmpty);
-
 /// The cells around one place, as the parts of a sphere: `size` below and as many above. Counts connected
 /// parts.
 class Link {
  public:
   void start(std::size_t size) {
     size_ = size;
-    label_.assign(2 * size, static_cast<std::uint8_t>(Label::kSolid));
+    label_.assign(2 * size, Label::kSolid);
   }
   void set(bool above, std::size_t i, std::uint8_t label) { label_[(above ? size_ : 0) + i] = label; }
 
@@ -71,10 +69,10 @@ bool gather(const CellComplex& complex, const VertexRings& rings, const Place& p
     if (layer < 0 || layer >= static_cast<std::int32_t>(complex.layers())) {
       continue;  // beyond the lowest or highest level: solid
     }
-    const std::uint8_t* row = label.data() + static_cast<std::size_t>(layer) * complex.faces();
+    const std::uint8_t* row = label.data() + complex.cell(0, static_cast<std::size_t>(layer));
     for (std::size_t i = 0; i < faces.size(); ++i) {
-      if (faces[i] != VertexRings::kOutsideFace && row[faces[i]] == kEmpty) {
-        link.set(above, i, kEmpty);
+      if (faces[i] != VertexRings::kOutsideFace && row[faces[i]] == Label::kEmpty) {
+        link.set(above, i, Label::kEmpty);
         ++empty;
       }
     }

@@ -7,36 +7,18 @@
 #include <numeric>
 #include <utility>
 
+#include "common/mesh/tree_splitter.h"
+
 namespace roomcut {
 
 namespace {
 
-constexpr std::int32_t kLeafSize = 4;
+constexpr std::int32_t kLeafSize = 2;
 constexpr double kRounding = 1e-10;  // of coordinates up to a kilometre, generously [m]
-constexpr std::size_t kStack = 128;  // deeper than any tree split in halves can be
+constexpr std::size_t kStack = 128;  // deeper than any tree of a TreeSplitter
 
 Vec3 cross(const Vec3& u, const Vec3& v) {
   return {u.y() * v.z() - u.z() * v.y(), u.z() * v.x() - u.x() * v.z(), u.x() * v.y() - u.y() * v.x()};
-}
-
-// Whether the segment of `length` along `unit` passes through the box.
-bool meets_box(const Vec3& from, const Vec3& unit, double length, const Vec3& lo, const Vec3& hi) {
-  constexpr double kSlack = 1e-9;  // flat boxes must not be missed by rounding
-  double enter = 0;
-  double leave = length;
-  for (int axis = 0; axis < 3 && enter <= leave; ++axis) {
-    if (unit[axis] == 0) {
-      if (from[axis] < lo[axis] || from[axis] > hi[axis]) {
-        return false;
-      }
-      continue;
-    }
-    const double t0 = (lo[axis] - from[axis]) / unit[axis];
-    const double t1 = (hi[axis] - from[axis]) / unit[axis];
-    enter = std::max(enter, std::min(t0, t1) - kSlack);
-    leave = std::min(leave, std::max(t0, t1) + kSlack);
-  }
-  return enter <= leave;
 }
 
 // Where the ray meets the triangle, as a distance from its start; -1 = nowhere (Möller and Trumbore 1997).
@@ -48,12 +30,42 @@ double distance_along(const Vec3& from, const Vec3& unit, const Vec3& a, const V
   if (det == 0) {
     return -1;
   }
-  const Vec3 s = from - a;
+  const Vec3 s = (from - a) / det;
+  const double u = s.dot(h);
+  if (u < 0 || u > 1) {
+    return -1;
+  }
   const Vec3 q = cross(s, ab);
-  const double u = s.dot(h) / det;
-  const double v = unit.dot(q) / det;
-  return u < 0 || v < 0 || u + v > 1 ? -1 : ac.dot(q) / det;
+  const double v = unit.dot(q);
+  return v < 0 || u + v > 1 ? -1 : ac.dot(q);
 }
+
+// A ray against boxes.
+class BoxRay {
+ public:
+  BoxRay(const Vec3& from, const Vec3& unit) : from_(from) {
+    constexpr double kLevel = 1e-300;  // instead of 0, whose inverse times 0 is no number
+    for (int axis = 0; axis < 3; ++axis) {
+      inverse_[axis] = 1 / (unit[axis] == 0 ? kLevel : unit[axis]);
+    }
+  }
+
+  // Where it enters the box; infinite when it does not, or not within `farthest`.
+  double entry(const Vec3& lo, const Vec3& hi, double farthest) const {
+    double enter = 0;
+    double leave = farthest;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double t0 = (lo[axis] - from_[axis]) * inverse_[axis];
+      const double t1 = (hi[axis] - from_[axis]) * inverse_[axis];
+      enter = std::max(enter, std::min(t0, t1));
+      leave = std::min(leave, std::max(t0, t1));
+    }
+    return enter <= leave ? enter : MeshTree::kInfinity;
+  }
+
+ private:
+  Vec3 from_, inverse_;
+};
 
 double box_distance2(const Vec3& p, const Vec3& lo, const Vec3& hi) {
   return (lo - p).cwiseMax(p - hi).cwiseMax(0.0).squaredNorm();
@@ -107,48 +119,32 @@ void MeshTree::build(const TriangleMesh& mesh, std::vector<std::int32_t> subset)
     const double length = n.norm();
     normal_.push_back(length > 0 ? Vec3(n / length) : Vec3(0, 0, 0));
   }
-  const auto centre = [&](std::int32_t t, int axis) {
-    const auto i = static_cast<std::size_t>(t);
-    return mesh.corner(i, 0)[axis] + mesh.corner(i, 1)[axis] + mesh.corner(i, 2)[axis];
-  };
-  struct Range {
-    std::size_t node;
-    std::int32_t first, last;
-  };
   item_of_.assign(mesh.triangles.size(), -1);
   if (subset.empty()) {
     return;
   }
+  TreeSplitter splitter(mesh, subset);
+  struct Range {
+    std::size_t node;
+    std::int32_t first, last;
+    int depth;
+  };
   nodes_.emplace_back();
-  std::vector<Range> open{{0, 0, static_cast<std::int32_t>(subset.size())}};
+  std::vector<Range> open{{0, 0, static_cast<std::int32_t>(subset.size()), 0}};
   while (!open.empty()) {
     const Range range = open.back();
     open.pop_back();
-    Vec3 lo = Vec3::Constant(kInfinity);
-    Vec3 hi = -lo;
-    for (std::int32_t i = range.first; i < range.last; ++i) {
-      for (int c = 0; c < 3; ++c) {
-        const Vec3& p = mesh.corner(static_cast<std::size_t>(subset[static_cast<std::size_t>(i)]), c);
-        lo = lo.cwiseMin(p);
-        hi = hi.cwiseMax(p);
-      }
-    }
+    const Eigen::AlignedBox3d box = splitter.box_of(range.first, range.last);
     if (range.last - range.first <= kLeafSize) {
-      nodes_[range.node] = {lo, hi, range.first, range.last - range.first};
+      nodes_[range.node] = {box.min(), box.max(), range.first, range.last - range.first};
       continue;
     }
-    int axis = 0;
-    (hi - lo).maxCoeff(&axis);
-    const std::int32_t middle = (range.first + range.last) / 2;
-    std::nth_element(subset.begin() + range.first, subset.begin() + middle, subset.begin() + range.last,
-                     [&](std::int32_t a, std::int32_t b) {
-                       return std::pair(centre(a, axis), a) < std::pair(centre(b, axis), b);
-                     });
+    const std::int32_t middle = splitter.split(range.first, range.last, range.depth);
     const auto child = static_cast<std::int32_t>(nodes_.size());
-    nodes_[range.node] = {lo, hi, child, 0};
+    nodes_[range.node] = {box.min(), box.max(), child, 0};
     nodes_.resize(nodes_.size() + 2);
-    open.push_back({static_cast<std::size_t>(child), range.first, middle});
-    open.push_back({static_cast<std::size_t>(child) + 1, middle, range.last});
+    open.push_back({static_cast<std::size_t>(child), range.first, middle, range.depth + 1});
+    open.push_back({static_cast<std::size_t>(child) + 1, middle, range.last, range.depth + 1});
   }
   items_.reserve(subset.size());
   for (const std::int32_t t : subset) {
@@ -231,31 +227,48 @@ MeshTree::Hit MeshTree::nearest_facing(const Vec3& p, double limit, const Vec3& 
                 [&](std::int32_t triangle) { return unit_normal(triangle).dot(direction) >= least_cosine; });
 }
 
-MeshTree::Hit MeshTree::first_on_segment(const Vec3& from, const Vec3& direction, double skip) const {
-  const double length = direction.norm();
-  if (nodes_.empty() || !(length > 0)) {
-    return {};
-  }
-  Hit best{length, -1};
-  const Vec3 unit = direction / length;
-  std::array<std::int32_t, kStack> stack;
+MeshTree::Hit MeshTree::first_on_ray(const Vec3& from, const Vec3& unit, double nearest,
+                                     double farthest) const {
+  Hit best{farthest, -1};
+  const BoxRay ray(from, unit);
+  struct Entry {
+    double distance;
+    std::int32_t node;
+  };
+  const auto entry = [&](std::int32_t node) {
+    const Node& box = nodes_[static_cast<std::size_t>(node)];
+    return Entry{ray.entry(box.lo, box.hi, best.distance), node};
+  };
+  std::array<Entry, kStack> stack;
   std::size_t depth = 0;
-  stack[depth++] = 0;
+  if (!nodes_.empty()) {
+    stack[depth++] = entry(0);
+  }
   while (depth > 0) {
-    const Node& node = nodes_[static_cast<std::size_t>(stack[--depth])];
-    if (!meets_box(from, unit, best.distance, node.lo, node.hi)) {
+    const Entry at = stack[--depth];
+    if (at.distance > best.distance) {
       continue;
     }
+    const Node& node = nodes_[static_cast<std::size_t>(at.node)];
     if (node.count == 0) {
-      stack[depth++] = node.first;
-      stack[depth++] = node.first + 1;
+      Entry near = entry(node.first);
+      Entry far = entry(node.first + 1);
+      if (far.distance < near.distance) {
+        std::swap(near, far);
+      }
+      if (far.distance <= best.distance) {
+        stack[depth++] = far;
+      }
+      if (near.distance <= best.distance) {
+        stack[depth++] = near;
+      }
       continue;
     }
     for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
       const Item& item = items_[static_cast<std::size_t>(i)];
       const double t = distance_along(from, unit, item.a, item.b, item.c);
-      if (t >= skip && (t < best.distance ||
-                        (t == best.distance && (best.triangle < 0 || item.triangle < best.triangle)))) {
+      if (t >= nearest && (t < best.distance ||
+                           (t == best.distance && (best.triangle < 0 || item.triangle < best.triangle)))) {
         best = {t, item.triangle};
       }
     }

@@ -9,8 +9,8 @@
 
 namespace roomcut {
 
-/// Bounding-volume tree over (some of) a mesh's triangles, for nearest points and segments. The mesh must
-/// outlive it. Queries are const and thread-safe; the answers depend on the mesh only.
+/// Bounding-volume tree over (some of) a mesh's triangles, for nearest points and for rays. Keeps what it
+/// needs of the mesh. Queries are const and thread-safe; the answers depend on the mesh only.
 class MeshTree {
  public:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -28,10 +28,9 @@ class MeshTree {
   Hit nearest(const Vec3& p, double limit = kInfinity, std::int32_t hint = -1) const;
   /// Nearest triangle whose unit normal n has n·direction >= least_cosine.
   Hit nearest_facing(const Vec3& p, double limit, const Vec3& direction, double least_cosine) const;
-  /// First triangle on the segment from `from` to from + direction (|direction| = its length), seen from
-  /// behind or in front; triangles closer than `skip` [m] to the start are passed over. Hit::distance in
-  /// metres from the start.
-  Hit first_on_segment(const Vec3& from, const Vec3& direction, double skip) const;
+  /// First triangle that the ray meets, from behind or in front, at a distance of `nearest` to `farthest`
+  /// [m]. `unit`: its direction, of length 1.
+  Hit first_on_ray(const Vec3& from, const Vec3& unit, double nearest, double farthest) const;
 
   /// Unit normal of a triangle; zero for one without area.
   const Vec3& unit_normal(std::int32_t triangle) const { return normal_[static_cast<std::size_t>(triangle)]; }

@@ -11,12 +11,14 @@
 #include "common/errors/error.h"
 #include "common/geometry/preferred_number.h"
 #include "stages/detect_lines/free_cells.h"
+#include "stages/detect_lines/mean_shift.h"
 #include "stages/detect_lines/merge_lines.h"
 
 namespace roomcut::detect_lines {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kUnbounded_m = 1e9;
 
 /// Everything that was derived from noise and extent.
 struct Rules {
@@ -47,6 +49,10 @@ Rules derive_rules(const Slices& slices, const WallCells& cells, const DetectLin
   const double merge = std::clamp(3.5 * noise, 0.02, 0.06);
   rules.merge.distance_m = resolve(params.merge_m, merge, "merge_m", choices);
   rules.merge.angle_rad = params.merge_angle_rad;
+  if (params.search == "mean_shift") {  // lines have no ends yet: only how similar they are counts
+    rules.merge.minor_share = 0;
+    rules.merge.reach_m = kUnbounded_m;
+  }
 
   // The mean and preferred numbers: the accumulator does not move with the outermost cell.
   rules.centre = {std::accumulate(cells.x.begin(), cells.x.end(), 0.0),
@@ -90,7 +96,8 @@ HoughPicture picture_of(const HoughAccumulator& votes, const Rules& rules) {
   return picture;
 }
 
-/// The greedy search: highest peak, fit, take its cells' votes back.
+/// The lines that cells vote for: by the greedy search (highest peak, fit, take its cells' votes back), or
+/// the modes of mean shift.
 class LineSearch {
  public:
   LineSearch(WallCells& cells, const Rules& rules, const DetectLinesParams& params)
@@ -106,7 +113,10 @@ class LineSearch {
 
   const HoughAccumulator& votes() const { return votes_; }
 
-  std::vector<LineCandidate> run() {
+  std::vector<LineCandidate> run() { return params_.search == "greedy" ? greedy() : modes(); }
+
+ private:
+  std::vector<LineCandidate> greedy() {
     std::vector<LineCandidate> found;
     for (;;) {
       const HoughAccumulator::Peak peak = votes_.peak();
@@ -115,10 +125,31 @@ class LineSearch {
     }
   }
 
- private:
+  /// A line for each mode, as far as cells lie on it.
+  std::vector<LineCandidate> modes() const {
+    const Bandwidth bandwidth{0.5 * rules_.merge.angle_rad, 0.5 * rules_.merge.distance_m};
+    std::vector<LineCandidate> found;
+    for (const HoughMode& mode : hough_modes(votes_, bandwidth, params_.min_support_m)) {
+      CellIndices on_line = free_.on_line(mode.line, rules_.fit, rules_.fit.inlier_m);
+      if (on_line.empty()) continue;
+      const auto along = [&](std::uint32_t i) { return mode.line.along({cells_.x[i], cells_.y[i]}); };
+      const auto [first, last] = std::minmax_element(on_line.begin(), on_line.end(),
+                                                     [&](auto i, auto j) { return along(i) < along(j); });
+      const double t0 = along(*first);
+      const double t1 = along(*last);
+      if (t1 - t0 < params_.min_support_m) continue;
+      found.push_back({mode.line, {t0, t1, mode.votes_m, std::move(on_line)}});
+    }
+    return found;
+  }
+
   void vote(std::uint32_t i, int sign) {
-    votes_.vote({cells_.x[i], cells_.y[i]}, static_cast<double>(cells_.theta[i]), params_.vote_window_rad,
-                static_cast<double>(cells_.weight_m[i]), sign);
+    const bool equal = params_.votes == "equal";
+    const auto theta = static_cast<double>(cells_.theta[i]);
+    Vec2 p(cells_.x[i], cells_.y[i]);
+    if (equal) p += static_cast<double>(cells_.offset_m[i]) * Line2{theta, 0}.normal();
+    const double weight_m = equal ? 0.5 * rules_.fit.bin_m : static_cast<double>(cells_.weight_m[i]);
+    votes_.vote(p, theta, params_.vote_window_rad, weight_m, sign);
   }
 
   void take_out(const CellIndices& taken) {
@@ -202,7 +233,7 @@ std::optional<std::vector<int>> roof_slices(const LineCandidate& candidate, cons
 
 DetectLinesResult detect_lines(const Slices& slices, const DetectLinesParams& params) {
   DetectLinesResult result;
-  result.cells = classify_cells(slices, params.linearity);
+  result.cells = classify_cells(slices, params.linearity, params.wider);
   WallCells& cells = result.cells;
   if (cells.size() == 0) no_lines(cells, params);
   const Rules rules = derive_rules(slices, cells, params, result.choices);
@@ -220,7 +251,9 @@ DetectLinesResult detect_lines(const Slices& slices, const DetectLinesParams& pa
   for (std::size_t i = 0; i < found.size(); ++i) {
     result.lines.lines.push_back(to_wall_line(found[i], cells, i));
     result.lines.lines.back().levels = roof_slices(found[i], cells, slices.levels);
-    for (const std::uint32_t cell : found[i].support.cells) cells.line[cell] = static_cast<std::int32_t>(i);
+    for (const std::uint32_t cell : found[i].support.cells) {
+      if (cells.line[cell] < 0) cells.line[cell] = static_cast<std::int32_t>(i);
+    }
   }
   return result;
 }

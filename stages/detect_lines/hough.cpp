@@ -83,6 +83,12 @@ HoughAccumulator::Peak HoughAccumulator::peak() {
       {theta, offset + normals_[top].dot(centre_)}, best_[top].votes * kVoteUnit, top, best_[top].distance};
 }
 
+Line2 HoughAccumulator::line_at(double angle, double distance) const {
+  const double theta = angle * angle_step_;
+  const double offset = (distance + 0.5) * distance_step_ - radius_;
+  return normalised(theta, offset + Line2{theta, 0}.normal().dot(centre_));
+}
+
 void HoughAccumulator::suppress(const Peak& peak) {
   votes_[peak.angle * distances_ + peak.distance] = kSuppressed;
   changed(peak.angle, peak.distance, false);

@@ -30,6 +30,9 @@ class HoughAccumulator {
   /// Keeps a bin from ever being a peak again.
   void suppress(const Peak& peak);
 
+  /// The line at a place between bins (whole numbers: their middles), as peaks are given.
+  Line2 line_at(double angle, double distance) const;
+
   std::size_t angles() const { return angles_; }
   std::size_t distances() const { return distances_; }
   double angle_step() const { return angle_step_; }

@@ -3,6 +3,7 @@
 
 #include <numbers>
 #include <optional>
+#include <string>
 
 #include "common/params/params.h"
 
@@ -15,6 +16,9 @@ struct DetectLinesParams {
   std::optional<double> merge_m;           ///< lines nearer than this are one [m]
   std::optional<double> hough_angle_deg;   ///< accumulator step, as the user writes it [deg]
   std::optional<double> hough_distance_m;  ///< accumulator step [m]
+  bool wider = true;                       ///< 4 and 8 tau and the points' normals are tried after 2 tau
+  std::string votes = "coverage";          ///< "coverage": by covered length; "equal": each fitted line once
+  std::string search = "greedy";           ///< "greedy", or "mean_shift" over the accumulator
   double linearity = 0.1;                  ///< paper: lambda2 / lambda1 below this is a piece of wall
   double vote_window_rad =
       4.0 * std::numbers::pi / 180.0;  ///< a cell votes this far to both sides of its angle
@@ -30,6 +34,16 @@ inline ParameterTable parameters(DetectLinesParams& p) {
   return {
       number("linearity", p.linearity, "1", 0.001, 1.0,
              "A neighbourhood is a piece of wall when lambda2 / lambda1 of its covariance is below this."),
+      boolean(
+          "wider", p.wider,
+          "Where noise or corners hide a wall in 2 tau, 4 and 8 tau and the points' own normals are tried."),
+      choice(
+          "votes", p.votes, {"coverage", "equal"},
+          "coverage: a cell votes by the length of wall it speaks for; equal: the paper's, once for the line "
+          "fitted to its neighbourhood."),
+      choice(
+          "search", p.search, {"greedy", "mean_shift"},
+          "greedy: highest bin, fit, votes taken back; mean_shift: the paper's, modes of the accumulator."),
       number("min_support_m", p.min_support_m, "m", 0.05, 100.0, "Shortest covered length of a wall line."),
       number("max_gap_m", p.max_gap_m, "m", 0.0, 1000.0,
              "Supports farther apart on one line become wall lines of their own."),

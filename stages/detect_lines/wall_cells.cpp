@@ -45,32 +45,40 @@ struct Moments {
   }
 };
 
-/// Normal direction of a linear neighbourhood, or a negative number when it is not linear.
-double linear_theta(const Moments& m, double linearity) {
-  if (m.cells < 3) return -1;
+/// The piece of wall at a cell: direction of its normal, a negative number for clutter, and how far it passes
+/// from the cell along that normal [m].
+struct LocalWall {
+  double theta = -1, offset_m = 0;
+};
+
+/// The line fitted to a linear neighbourhood.
+LocalWall linear_wall(const Moments& m, double linearity) {
+  if (m.cells < 3) return {};
   const double cxx = m.xx / m.w - m.x * m.x / (m.w * m.w);
   const double cyy = m.yy / m.w - m.y * m.y / (m.w * m.w);
   const double cxy = m.xy / m.w - m.x * m.y / (m.w * m.w);
   const double half = 0.5 * (cxx + cyy);
   const double root = std::hypot(0.5 * (cxx - cyy), cxy);
   const double largest = half + root;
-  if (largest <= 0 || (half - root) >= linearity * largest) return -1;
+  if (largest <= 0 || (half - root) >= linearity * largest) return {};
   const double along = 0.5 * std::atan2(2 * cxy, cxx - cyy);
-  return normalised(along + std::numbers::pi / 2, 0).theta;
+  const double theta = normalised(along + std::numbers::pi / 2, 0).theta;
+  return {theta, Line2{theta, 0}.normal().dot(Vec2(m.x, m.y) / m.w)};
 }
 
 class Classifier {
  public:
-  Classifier(const OccupancyGrid& grid, const Rows& rows, double tau_m, double linearity)
-      : grid_(grid), rows_(rows), tau_(tau_m), linearity_(linearity) {}
+  Classifier(const OccupancyGrid& grid, const Rows& rows, double tau_m, double linearity, bool wider)
+      : grid_(grid), rows_(rows), tau_(tau_m), linearity_(linearity), wider_(wider) {}
 
-  /// Direction of the wall at cell i of row r, or a negative number for clutter.
-  double theta(std::size_t i, std::size_t r) const {
+  /// The wall at cell i of row r.
+  LocalWall wall(std::size_t i, std::size_t r) const {
     for (const int radius : kRadii) {
-      const double theta = linear_theta(around(i, r, radius), linearity_);
-      if (theta >= 0) return theta;
+      const LocalWall wall = linear_wall(around(i, r, radius), linearity_);
+      if (wall.theta >= 0 || !wider_) return wall;
     }
-    return grid_.azimuth_trust[i] >= kTrust * 255 ? azimuth_of(grid_.azimuth[i]) : -1;
+    if (grid_.azimuth_trust[i] < kTrust * 255) return {};
+    return {azimuth_of(grid_.azimuth[i]), 0};
   }
 
  private:
@@ -97,6 +105,7 @@ class Classifier {
   const Rows& rows_;
   double tau_;
   double linearity_;
+  bool wider_;
 };
 
 void append(const OccupancyGrid& grid, int slice, WallCells& cells) {
@@ -106,26 +115,28 @@ void append(const OccupancyGrid& grid, int slice, WallCells& cells) {
   cells.area_m2.insert(cells.area_m2.end(), grid.area_m2.begin(), grid.area_m2.end());
   cells.slice.insert(cells.slice.end(), grid.size(), slice);
   cells.theta.resize(cells.x.size(), 0.0F);
+  cells.offset_m.resize(cells.x.size(), 0.0F);
   cells.boundary.resize(cells.x.size(), 0);
   cells.line.resize(cells.x.size(), -1);
 }
 
 }  // namespace
 
-WallCells classify_cells(const Slices& slices, double linearity) {
+WallCells classify_cells(const Slices& slices, double linearity, bool wider) {
   WallCells cells;
   for (std::size_t k = 0; k < slices.wall_slices.size(); ++k) {
     const OccupancyGrid& grid = slices.wall_slices[k];
     const std::size_t offset = cells.size();
     append(grid, static_cast<int>(k), cells);
     const Rows rows(grid);
-    const Classifier classifier(grid, rows, slices.tau_m, linearity);
+    const Classifier classifier(grid, rows, slices.tau_m, linearity, wider);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rows.size(), 8), [&](const auto& range) {
       for (std::size_t r = range.begin(); r != range.end(); ++r) {
         for (std::size_t i = rows.first[r]; i < rows.first[r + 1]; ++i) {
-          const double theta = classifier.theta(i, r);
-          cells.boundary[offset + i] = theta >= 0 ? 1 : 0;
-          cells.theta[offset + i] = static_cast<float>(std::max(0.0, theta));
+          const LocalWall wall = classifier.wall(i, r);
+          cells.boundary[offset + i] = wall.theta >= 0 ? 1 : 0;
+          cells.theta[offset + i] = static_cast<float>(std::max(0.0, wall.theta));
+          cells.offset_m[offset + i] = static_cast<float>(wall.offset_m);
         }
       }
     });

@@ -35,13 +35,11 @@ class SurfaceMaker {
   }
 
  private:
-  bool empty(std::int64_t face, std::size_t layer) const {
-    return face >= 0 && layer < complex_.layers() &&
-           label_[complex_.cell(static_cast<std::size_t>(face), layer)] ==
-               static_cast<std::uint8_t>(Label::kEmpty);
+  bool empty(std::int32_t face, std::size_t layer) const {
+    return layer < complex_.layers() && is_empty(complex_, label_, face, layer);
   }
 
-  std::int16_t storey(std::int64_t face, std::size_t layer) const {
+  std::int16_t storey(std::int32_t face, std::size_t layer) const {
     return storeys_.of_cell[complex_.cell(static_cast<std::size_t>(face), layer)];
   }
 
@@ -66,7 +64,7 @@ class SurfaceMaker {
   }
 
   void add_level_face(std::size_t f, std::size_t level) {
-    const auto face = static_cast<std::int64_t>(f);
+    const auto face = static_cast<std::int32_t>(f);
     const bool above = empty(face, level);
     const bool below = level > 0 && empty(face, level - 1);
     if (above == below) {
@@ -74,9 +72,11 @@ class SurfaceMaker {
     }
     corners_.clear();
     carriers_.clear();
-    for (auto i = complex_.face_offset[f]; i < complex_.face_offset[f + 1]; ++i) {
-      corners_.push_back(vertex(complex_.face_vertex[static_cast<std::size_t>(i)], level));
-      carriers_.push_back(carrier(complex_.face_edge[static_cast<std::size_t>(i)]));
+    for (const std::int32_t v : complex_.vertices_of(f)) {
+      corners_.push_back(vertex(v, level));
+    }
+    for (const std::int32_t e : complex_.edges_of(f)) {
+      carriers_.push_back(carrier(e));
     }
     if (above) {  // a floor: its normal points down, out of the empty cell
       std::reverse(corners_.begin(), corners_.end());

@@ -5,27 +5,15 @@
 #include <cmath>
 #include <optional>
 #include <set>
-#include <tuple>
 
+#include "common/cells/face_locator.h"
 #include "common/cells/interfaces.h"
 #include "common/cells/manifold_check.h"
-#include "stages/extract/plan_cutter.h"
+#include "stages/extract/cut_jambs.h"
 
 namespace roomcut::extract {
 
 namespace {
-
-constexpr auto kEmpty = static_cast<std::uint8_t>(Label::kEmpty);
-constexpr auto kSolid = static_cast<std::uint8_t>(Label::kSolid);
-
-std::optional<std::int32_t> line_index(const CellComplex& complex, const std::string& wall_id) {
-  for (std::size_t i = 0; i < complex.lines.size(); ++i) {
-    if (complex.lines[i].wall_id == wall_id) {
-      return static_cast<std::int32_t>(i);
-    }
-  }
-  return std::nullopt;
-}
 
 /// The level nearest to z when it is within kPlanSnap_m, else none.
 std::optional<std::size_t> level_at(const std::vector<double>& levels, double z) {
@@ -54,46 +42,11 @@ std::vector<std::size_t> add_levels(CellComplex& complex, const std::vector<Open
   return layer_of;
 }
 
-struct Jamb {
-  Line2 line;
-  double t0, t1;  // where it meets the wall's two faces, ascending
-};
-
-/// The jamb through `at`, across the opening, from face to face of the wall. None where they are not across.
-std::optional<Jamb> jamb_of(const Opening& opening, const Vec2& at, const Line2& a, const Line2& b) {
-  const Vec2 along = (opening.jamb_b - opening.jamb_a).normalized();
-  const Vec2 across(-along.y(), along.x());
-  const auto foot = [&](const Line2& face) -> Vec2 {
-    return at - face.distance(at) / face.normal().dot(across) * across;
-  };
-  if (std::abs(a.normal().dot(across)) < 0.5 || std::abs(b.normal().dot(across)) < 0.5 ||
-      (foot(a) - foot(b)).norm() < 10 * kPlanSnap_m) {
-    return std::nullopt;
-  }
-  Jamb jamb{line_through(foot(a), foot(b)), 0, 0};
-  std::tie(jamb.t0, jamb.t1) = std::minmax({jamb.line.along(foot(a)), jamb.line.along(foot(b))});
-  return jamb;
-}
-
-std::vector<std::vector<std::int32_t>> edges_of_faces(const CellComplex& complex) {
-  std::vector<std::vector<std::int32_t>> edges(complex.faces());
-  for (std::size_t f = 0; f < complex.faces(); ++f) {
-    for (auto i = complex.face_offset[f]; i < complex.face_offset[f + 1]; ++i) {
-      edges[f].push_back(complex.face_edge[static_cast<std::size_t>(i)]);
-    }
-  }
-  return edges;
-}
-
 /// Tries the openings on the refined complex. Closes in `closed` what the cut had emptied of an accepted one.
 class Opener {
  public:
   Opener(const CellComplex& complex, Labels& closed)
-      : complex_(complex),
-        closed_(closed.label),
-        label_(closed.label),
-        edges_(edges_of_faces(complex)),
-        check_(complex) {}
+      : complex_(complex), closed_(closed.label), label_(closed.label), check_(complex) {}
 
   /// Opens it when it fits; else says why not.
   std::string try_open(const Opening& opening, std::int32_t middle_face, Passage& passage) {
@@ -109,7 +62,7 @@ class Opener {
     while (!flood.open.empty()) {
       const std::int32_t face = flood.open.back();
       flood.open.pop_back();
-      for (const std::int32_t e : edges_[static_cast<std::size_t>(face)]) {
+      for (const std::int32_t e : complex_.edges_of(static_cast<std::size_t>(face))) {
         if (std::string why = cross(opening, face, e, flood, passage); !why.empty()) {
           return why;
         }
@@ -136,7 +89,7 @@ class Opener {
   std::string cross(const Opening& opening, std::int32_t face, std::int32_t e, Flood& flood,
                     Passage& passage) const {
     const CellComplex::Edge& edge = complex_.edges[static_cast<std::size_t>(e)];
-    const std::int32_t other = edge.left == face ? edge.right : edge.left;
+    const std::int32_t other = edge.across(face);
     if (other < 0 || edge.line < 0) {
       return "it reaches the bounding box";
     }
@@ -144,11 +97,11 @@ class Opener {
     if (face_a || edge.line == flood.line_b) {
       (face_a ? flood.side_a : flood.side_b) = true;
       (face_a ? passage.cell_a : passage.cell_b) = complex_.cell(static_cast<std::size_t>(other), flood.sill);
-      return all(other, flood.sill, flood.head, kEmpty) ? "" : "there is no room on one side";
+      return all(other, flood.sill, flood.head, Label::kEmpty) ? "" : "there is no room on one side";
     }
     if (lies_on_jamb(opening, edge)) {
       flood.top = std::min(flood.top, end_of_solid(other, flood.head));
-      return all(other, flood.sill, flood.head, kSolid) ? "" : "the wall does not go on beside a jamb";
+      return all(other, flood.sill, flood.head, Label::kSolid) ? "" : "the wall does not go on beside a jamb";
     }
     if (flood.faces.insert(other).second) {
       flood.open.push_back(other);
@@ -189,7 +142,7 @@ class Opener {
 
   /// The first layer from `layer` upwards in which the face is not solid.
   std::size_t end_of_solid(std::int32_t face, std::size_t layer) const {
-    while (layer < complex_.layers() && all(face, layer, layer + 1, kSolid)) {
+    while (layer < complex_.layers() && all(face, layer, layer + 1, Label::kSolid)) {
       ++layer;
     }
     return layer;
@@ -202,7 +155,7 @@ class Opener {
     for (const std::int32_t face : faces) {
       for (std::size_t k = sill; k < top; ++k) {
         const std::size_t cell = complex_.cell(static_cast<std::size_t>(face), k);
-        if (label_[cell] == kEmpty && closed_[cell] == kSolid) {
+        if (label_[cell] == Label::kEmpty && closed_[cell] == Label::kSolid) {
           return "it overlaps another opening";
         }
         const bool opens = k < head;
@@ -210,7 +163,7 @@ class Opener {
         if (opens) {
           passage.cells.push_back(cell);
         }
-        if (label_[cell] != (opens ? kEmpty : kSolid)) {
+        if (label_[cell] != (opens ? Label::kEmpty : Label::kSolid)) {
           const double volume = complex_.area(static_cast<std::size_t>(face)) * complex_.height(k);
           passage.volume_m3 += opens ? volume : -volume;
           flipped.push_back(cell);
@@ -223,25 +176,23 @@ class Opener {
       return "surfaces would touch in an edge or a corner";
     }
     for (const std::size_t cell : touched) {
-      closed_[cell] = kSolid;
+      closed_[cell] = Label::kSolid;
     }
     return "";
   }
 
   void flip(const std::vector<std::size_t>& cells) {
     for (const std::size_t cell : cells) {
-      label_[cell] = label_[cell] == kEmpty ? kSolid : kEmpty;
+      label_[cell] = label_[cell] == Label::kEmpty ? Label::kSolid : Label::kEmpty;
     }
   }
 
   bool is_manifold(const std::set<std::int32_t>& faces, std::size_t sill, std::size_t top) const {
     for (const std::int32_t face : faces) {
       const auto f = static_cast<std::size_t>(face);
-      for (auto i = complex_.face_offset[f]; i < complex_.face_offset[f + 1]; ++i) {
+      for (const std::int32_t vertex : complex_.vertices_of(f)) {
         for (std::size_t level = sill; level <= top; ++level) {
-          if (!check_.is_manifold(
-                  {static_cast<std::int32_t>(level), complex_.face_vertex[static_cast<std::size_t>(i)]},
-                  label_)) {
+          if (!check_.is_manifold({static_cast<std::int32_t>(level), vertex}, label_)) {
             return false;
           }
         }
@@ -253,7 +204,6 @@ class Opener {
   const CellComplex& complex_;
   std::vector<std::uint8_t>& closed_;
   std::vector<std::uint8_t> label_;  // with the accepted openings open
-  std::vector<std::vector<std::int32_t>> edges_;
   ManifoldCheck check_;
 };
 
@@ -273,24 +223,6 @@ Labels inherited(const Labels& labels, const CellComplex& old, const CellComplex
   return result;
 }
 
-void cut_jambs(PlanCutter& cutter, const CellComplex& complex, const std::vector<Opening>& openings) {
-  for (const Opening& opening : openings) {
-    const auto a = line_index(complex, opening.wall_a);
-    const auto b = line_index(complex, opening.wall_b);
-    if (!a || !b) {
-      continue;
-    }
-    const Line2& face_a = complex.lines[static_cast<std::size_t>(*a)].line;
-    const Line2& face_b = complex.lines[static_cast<std::size_t>(*b)].line;
-    const auto first = jamb_of(opening, opening.jamb_a, face_a, face_b);
-    const auto second = jamb_of(opening, opening.jamb_b, face_a, face_b);
-    if (first && second) {
-      cutter.cut(first->line, first->t0, first->t1, opening.id + ".a");
-      cutter.cut(second->line, second->t0, second->t1, opening.id + ".b");
-    }
-  }
-}
-
 }  // namespace
 
 OpenableComplex cut_openings(const CellComplex& complex, const Labels& labels,
@@ -298,17 +230,16 @@ OpenableComplex cut_openings(const CellComplex& complex, const Labels& labels,
   if (openings.empty()) {
     return {complex, labels, {}, {}};
   }
-  PlanCutter cutter(complex);
-  cut_jambs(cutter, complex, openings);
   std::vector<std::int32_t> parent;
-  OpenableComplex result{cutter.result(parent), {}, {}, {}};
+  OpenableComplex result{with_jambs(complex, openings, parent), {}, {}, {}};
   const std::vector<std::size_t> layer_of = add_levels(result.complex, openings);
   result.labels = inherited(labels, complex, result.complex, parent, layer_of);
+  const FaceLocator locator(result.complex);
   Opener opener(result.complex, result.labels);
   for (const Opening& opening : openings) {
     Passage passage;
     const std::string why =
-        opener.try_open(opening, cutter.locate(0.5 * (opening.jamb_a + opening.jamb_b)), passage);
+        opener.try_open(opening, locator.face_at(0.5 * (opening.jamb_a + opening.jamb_b)), passage);
     if (why.empty()) {
       result.passages.push_back(std::move(passage));
     } else {
@@ -321,7 +252,7 @@ OpenableComplex cut_openings(const CellComplex& complex, const Labels& labels,
 void open_passages(const std::vector<Passage>& passages, Labels& labels) {
   for (const Passage& passage : passages) {
     for (const std::size_t cell : passage.cells) {
-      labels.label[cell] = kEmpty;
+      labels.label[cell] = Label::kEmpty;
       labels.unobserved[cell] = 0;
     }
   }

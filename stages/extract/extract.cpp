@@ -49,7 +49,7 @@ void measure_unobserved(const CellComplex& complex, const Labels& labels, Model&
     for (std::size_t layer = 0; layer < complex.layers(); ++layer) {
       const std::size_t cell = complex.cell(face, layer);
       if (labels.unobserved[cell] != 0) {
-        const bool empty = labels.label[cell] == static_cast<std::uint8_t>(Label::kEmpty);
+        const bool empty = is_empty(labels.label, cell);
         (empty ? model.unobserved_empty_m3 : model.unobserved_solid_m3) += area * complex.height(layer);
       }
     }

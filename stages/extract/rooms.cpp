@@ -10,10 +10,6 @@ namespace roomcut::extract {
 
 namespace {
 
-bool is_empty(const Labels& labels, std::size_t cell) {
-  return labels.label[cell] == static_cast<std::uint8_t>(Label::kEmpty);
-}
-
 // Group per cell: -1 = solid; groups numbered from 0 by their first cell.
 struct Groups {
   std::vector<std::int32_t> of_cell;
@@ -33,17 +29,16 @@ std::vector<std::vector<std::int32_t>> neighbours_in_plan(const CellComplex& com
 
 Groups connect(const CellComplex& complex, const Labels& labels, const Storeys& storeys) {
   const auto neighbours = neighbours_in_plan(complex);
-  const std::size_t faces = complex.faces();
   Groups groups;
   groups.of_cell.assign(complex.cells(), -1);
   std::vector<std::size_t> open;
   for (std::size_t seed = 0; seed < complex.cells(); ++seed) {
-    if (!is_empty(labels, seed) || groups.of_cell[seed] >= 0) {
+    if (!is_empty(labels.label, seed) || groups.of_cell[seed] >= 0) {
       continue;
     }
     const std::int32_t group = groups.count++;
     const auto reach = [&](std::size_t cell) {
-      if (is_empty(labels, cell) && groups.of_cell[cell] < 0 &&
+      if (is_empty(labels.label, cell) && groups.of_cell[cell] < 0 &&
           storeys.of_cell[cell] == storeys.of_cell[seed]) {
         groups.of_cell[cell] = group;
         open.push_back(cell);
@@ -53,12 +48,13 @@ Groups connect(const CellComplex& complex, const Labels& labels, const Storeys& 
     while (!open.empty()) {
       const std::size_t cell = open.back();
       open.pop_back();
-      const std::size_t layer = cell / faces;
-      for (const std::int32_t face : neighbours[cell % faces]) {
-        reach(complex.cell(static_cast<std::size_t>(face), layer));
+      const std::size_t face = complex.face_of(cell);
+      const std::size_t layer = complex.layer_of(cell);
+      for (const std::int32_t beside : neighbours[face]) {
+        reach(complex.cell(static_cast<std::size_t>(beside), layer));
       }
-      if (layer > 0) reach(cell - faces);
-      if (layer + 1 < complex.layers()) reach(cell + faces);
+      if (layer > 0) reach(complex.cell(face, layer - 1));
+      if (layer + 1 < complex.layers()) reach(complex.cell(face, layer + 1));
     }
   }
   return groups;

@@ -31,13 +31,10 @@ Storeys find_storeys(const CellComplex& complex, const std::vector<std::uint8_t>
 /// Calls f(face, first layer, one past the last layer) for every run, by plan face and height.
 template <class F>
 void for_each_run(const CellComplex& complex, const std::vector<std::uint8_t>& label, F&& f) {
-  const auto empty = [&](std::size_t face, std::size_t layer) {
-    return label[complex.cell(face, layer)] == static_cast<std::uint8_t>(Label::kEmpty);
-  };
   for (std::size_t face = 0; face < complex.faces(); ++face) {
     for (std::size_t k = 0; k < complex.layers();) {
       const std::size_t first = k;
-      while (k < complex.layers() && empty(face, k)) {
+      while (k < complex.layers() && is_empty(label, complex.cell(face, k))) {
         ++k;
       }
       if (k > first) {

@@ -8,45 +8,14 @@
 #include <numbers>
 #include <tuple>
 
+#include "common/cells/plan_walk.h"
+
 namespace roomcut::find_openings {
 
 namespace {
 
 constexpr double kParallel_rad = 3.0 * std::numbers::pi / 180.0;
 constexpr double kThinnest_m = 0.03;
-
-/// Where a line of walk leaves a convex face.
-struct Exit {
-  std::int32_t edge = -1;
-  double distance = 0;  ///< from the start of the walk [m]
-};
-
-Exit leave_face(const CellComplex& complex, std::int32_t face, const Vec2& from, const Vec2& direction) {
-  constexpr double kAlong = 1e-12;  // edges along the walk are not crossed
-  constexpr double kBeside = 1e-9;  // of an edge's length: two edges of one side share their corner
-  Exit best;
-  best.distance = std::numeric_limits<double>::infinity();
-  const auto first = complex.face_offset[static_cast<std::size_t>(face)];
-  const auto last = complex.face_offset[static_cast<std::size_t>(face) + 1];
-  for (auto i = first; i < last; ++i) {
-    const auto next = i + 1 == last ? first : i + 1;
-    const Vec2& p =
-        complex.vertices[static_cast<std::size_t>(complex.face_vertex[static_cast<std::size_t>(i)])];
-    const Vec2 side =
-        complex.vertices[static_cast<std::size_t>(complex.face_vertex[static_cast<std::size_t>(next)])] - p;
-    const double outwards = side.y() * direction.x() - side.x() * direction.y();
-    if (outwards <= kAlong) {
-      continue;
-    }
-    const Vec2 arm = p - from;
-    const double distance = (side.y() * arm.x() - side.x() * arm.y()) / outwards;
-    const double u = (direction.y() * arm.x() - direction.x() * arm.y()) / outwards;
-    if (u >= -kBeside && u <= 1 + kBeside && distance < best.distance) {
-      best = {complex.face_edge[static_cast<std::size_t>(i)], distance};
-    }
-  }
-  return best;
-}
 
 using Key = std::tuple<std::int32_t, std::int32_t, int>;                           // line_a, line_b, side
 using Places = std::map<Key, std::vector<std::pair<std::int64_t, std::int32_t>>>;  // column, layer
@@ -73,10 +42,7 @@ class Walker {
   }
 
  private:
-  bool empty(std::int32_t face, std::size_t layer) const {
-    return label_[complex_.cell(static_cast<std::size_t>(face), layer)] ==
-           static_cast<std::uint8_t>(Label::kEmpty);
-  }
+  bool empty(std::int32_t face, std::size_t layer) const { return is_empty(complex_, label_, face, layer); }
 
   /// From the room `outer` through the face `inner` behind the edge, towards side · normal.
   void walk_edge(const CellComplex::Edge& edge, const Line2& line, std::int32_t outer, std::int32_t inner,
@@ -103,12 +69,12 @@ class Walker {
     const Vec2 direction = side * line.normal();
     open_ = start_;
     while (!open_.empty()) {
-      const Exit exit = leave_face(complex_, face, from, direction);
+      const FaceExit exit = leave_face(complex_, static_cast<std::size_t>(face), from, direction);
       if (exit.edge < 0 || exit.distance > max_m_) {
         return;
       }
       const CellComplex::Edge& edge = complex_.edges[static_cast<std::size_t>(exit.edge)];
-      face = edge.left == face ? edge.right : edge.left;
+      face = edge.across(face);
       if (face < 0) {
         return;
       }

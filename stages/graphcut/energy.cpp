@@ -16,19 +16,14 @@ double quantised(double value) {
 }
 
 /// What is charged of a face of which `omega` was seen.
-double unseen(double omega) {
-  constexpr double kWhole = 0.3;  // of a wall; the paper's 1 gave up walls behind furniture, and glazed ones
-  return std::max(0.0, 1 - omega / kWhole);
-}
-
-bool is_empty(const std::vector<std::uint8_t>& label, std::int64_t cell) {
-  return cell >= 0 && label[static_cast<std::size_t>(cell)] == static_cast<std::uint8_t>(Label::kEmpty);
+double unseen(double omega, double free_from) {
+  return std::max(0.0, 1 - omega / free_from);
 }
 
 }  // namespace
 
 EnergyTerms energy_terms(const CellComplex& complex, const FaceWeights& weights, const DataTerms& terms,
-                         double mu_m) {
+                         const GraphcutParams& params) {
   if (terms.d_empty.size() != complex.cells() || terms.d_solid.size() != complex.cells() ||
       weights.wall_omega.size() != complex.edges.size() * complex.layers() ||
       weights.level_omega.size() != complex.faces() * complex.levels.size() ||
@@ -49,7 +44,7 @@ EnergyTerms energy_terms(const CellComplex& complex, const FaceWeights& weights,
     const double omega = face.wall ? weights.wall_omega[face.index] : weights.level_omega[face.index];
     const double implied = face.wall ? terms.wall_implied[face.index] : terms.level_implied[face.index];
     (face.wall ? energy.wall : energy.level)[face.index] =
-        quantised(mu_m * unseen(omega) * (1.0 - implied) * face.area);
+        quantised(params.mu_m * unseen(omega, params.free_from) * (1.0 - implied) * face.area);
   });
   return energy;
 }
@@ -58,7 +53,7 @@ Energy energy_of(const CellComplex& complex, const EnergyTerms& terms,
                  const std::vector<std::uint8_t>& label) {
   Energy energy;
   for (std::size_t c = 0; c < complex.cells(); ++c) {
-    energy.data_m3 += is_empty(label, static_cast<std::int64_t>(c)) ? terms.d_empty[c] : terms.d_solid[c];
+    energy.data_m3 += is_empty(label, c) ? terms.d_empty[c] : terms.d_solid[c];
   }
   for_each_interface(complex, [&](const Interface& face) {
     if (is_surface(face, label)) {
@@ -70,7 +65,7 @@ Energy energy_of(const CellComplex& complex, const EnergyTerms& terms,
 
 double flip_cost(const CellComplex& complex, const EnergyTerms& terms, const std::vector<std::uint8_t>& label,
                  std::size_t cell) {
-  const bool empty = is_empty(label, static_cast<std::int64_t>(cell));
+  const bool empty = is_empty(label, cell);
   double cost = empty ? terms.d_solid[cell] - terms.d_empty[cell] : terms.d_empty[cell] - terms.d_solid[cell];
   for_each_interface_of(complex, cell, [&](const Interface& face, std::int64_t other) {
     const double term = (face.wall ? terms.wall : terms.level)[face.index];

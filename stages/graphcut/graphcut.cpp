@@ -29,7 +29,7 @@ std::string text(const char* format, double a, double b = 0, double c = 0) {
   for (std::size_t c = 0; c < complex.cells(); ++c) {
     const double cell_gain = terms.d_solid[c] - terms.d_empty[c];
     if (cell_gain > 0) {
-      leaning += complex.area(c % complex.faces()) * complex.height(c / complex.faces());
+      leaning += complex.volume(c);
       gain += cell_gain;
     }
   }
@@ -58,8 +58,8 @@ void rate_cells(const CellComplex& complex, const EnergyTerms& energy, const Dat
   for (std::size_t c = 0; c < complex.cells(); ++c) {
     labels.margin_m3[c] = static_cast<float>(flip_cost(complex, energy, labels.label, c));
     labels.unobserved[c] = terms.observed[c] < params.min_observed ? 1 : 0;
-    if (labels.label[c] == static_cast<std::uint8_t>(Label::kEmpty)) {
-      const double volume = complex.area(c % complex.faces()) * complex.height(c / complex.faces());
+    if (is_empty(labels.label, c)) {
+      const double volume = complex.volume(c);
       ++result.empty_cells;
       result.empty_m3 += volume;
       result.unobserved_empty_m3 += labels.unobserved[c] != 0 ? volume : 0;
@@ -71,7 +71,7 @@ void rate_cells(const CellComplex& complex, const EnergyTerms& energy, const Dat
 
 Graphcut graphcut(const CellComplex& complex, const FaceWeights& weights, const DataTerms& terms,
                   const GraphcutParams& params) {
-  const EnergyTerms energy = energy_terms(complex, weights, terms, params.mu_m);
+  const EnergyTerms energy = energy_terms(complex, weights, terms, params);
   const Cut cut = minimum_cut(complex, energy);
   const ManifoldCheck check(complex);
   Repair repair = repair_labels(check, energy, cut.label);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages/graphcut/label_repair.h"
 
-#include <cassert>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -12,9 +11,6 @@
 namespace roomcut::graphcut {
 
 namespace {
-
-constexpr auto kSolid = static_cast<std::uint8_t>(Label::kSolid);
-constexpr auto kEmpty = static_cast<std::uint8_t>(Label::kEmpty);
 
 /// A labelling under repair: the labels and the places where it is not manifold.
 class Patient {
@@ -64,13 +60,10 @@ class Patient {
 
 template <class F>
 void Patient::for_each_place_of(std::size_t cell, F&& f) const {
-  const std::size_t faces = complex_.faces();
-  assert(faces > 0);
-  const std::size_t face = cell % faces;
-  const auto layer = static_cast<std::int32_t>(cell / faces);
-  for (std::int64_t i = complex_.face_offset[face]; i < complex_.face_offset[face + 1]; ++i) {
-    f(Place{layer, complex_.face_vertex[i]});
-    f(Place{layer + 1, complex_.face_vertex[i]});
+  const auto layer = static_cast<std::int32_t>(complex_.layer_of(cell));
+  for (const std::int32_t vertex : complex_.vertices_of(complex_.face_of(cell))) {
+    f(Place{layer, vertex});
+    f(Place{layer + 1, vertex});
   }
 }
 
@@ -170,9 +163,9 @@ Repair repair_labels(const ManifoldCheck& check, const EnergyTerms& terms,
     return as_repair(patient);
   }
   Patient filled = patient;
-  filled.repair(kEmpty);
+  filled.repair(Label::kEmpty);
   Patient opened = std::move(patient);
-  opened.repair(kSolid);
+  opened.repair(Label::kSolid);
   return as_repair(opened.added_m3() < filled.added_m3() ? opened : filled);
 }
 

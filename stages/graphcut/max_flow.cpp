@@ -57,7 +57,7 @@ Cut minimum_cut(const CellComplex& complex, const EnergyTerms& terms) {
   cut.label.resize(cells);
   for (std::size_t c = 0; c < cells; ++c) {
     const bool empty = graph.what_segment(static_cast<int>(c), Graph::SINK) == Graph::SOURCE;
-    cut.label[c] = static_cast<std::uint8_t>(empty ? Label::kEmpty : Label::kSolid);
+    cut.label[c] = empty ? Label::kEmpty : Label::kSolid;
   }
   return cut;
 }

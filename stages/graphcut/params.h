@@ -7,6 +7,7 @@ namespace roomcut::graphcut {
 
 struct GraphcutParams {
   double mu_m = 0.3;
+  double free_from = 0.3;
   double min_observed = 0.1;
 };
 
@@ -16,6 +17,9 @@ inline ParameterTable parameters(GraphcutParams& p) {
       number("mu_m", p.mu_m, "m", 0.01, 5.0,
              "What a square metre of surface without points costs, in cubic metres of cells (the paper's "
              "alpha times the building's height)."),
+      number("free_from", p.free_from, "1", 0.01, 1.0,
+             "A face of which this share was seen costs nothing, less in proportion; 1 = the paper's 1 - "
+             "omega."),
       number("min_observed", p.min_observed, "1", 0.0, 1.0,
              "Cells of whose rays a smaller share ends on a seen face are reported as unobserved."),
   };

@@ -193,6 +193,24 @@ ThinEnd thin_end(Cells& cells) {
   return thin;
 }
 
+std::vector<KeptTile> kept_tiles(const Cells& cells) {
+  std::map<std::uint32_t, KeptTile> tiles;
+  for (const auto& [key, cell] : cells) {
+    if (cell.kept) {
+      const auto tile = static_cast<std::uint32_t>(key.iy * fixed_grid::kWindowTiles + key.ix);
+      KeptTile& kept = tiles[tile];
+      kept.tile = tile;
+      kept.layers |= std::uint64_t{1} << key.layer;
+      kept.points += cell.points;
+    }
+  }
+  std::vector<KeptTile> all;
+  for (const auto& [tile, kept] : tiles) {
+    all.push_back(kept);
+  }
+  return all;
+}
+
 }  // namespace
 
 KeptCells without_ghosts(const std::vector<CellCount>& counts) {
@@ -211,7 +229,6 @@ KeptCells without_ghosts(const std::vector<CellCount>& counts) {
            (static_cast<double>(points_of[group]) >= kGroupShare * static_cast<double>(largest) ||
             static_cast<double>(densest[group]) >= kBuildingShare * typical);
   };
-  std::map<std::uint32_t, KeptTile> tiles;
   for (auto& [key, cell] : cells) {
     cell.kept = is_kept(cell);
     if (!cell.kept) {
@@ -219,20 +236,18 @@ KeptCells without_ghosts(const std::vector<CellCount>& counts) {
         kept = kept || is_kept(other);
       });
     }
-    if (cell.kept) {
-      const auto tile = static_cast<std::uint32_t>(key.iy * fixed_grid::kWindowTiles + key.ix);
-      KeptTile& kept = tiles[tile];
-      kept.tile = tile;
-      kept.layers |= std::uint64_t{1} << key.layer;
-      kept.points += cell.points;
-    }
   }
-  KeptCells result;
-  for (const auto& [tile, kept] : tiles) {
-    result.tiles.push_back(kept);
+  return {kept_tiles(cells), thin_end(cells)};
+}
+
+KeptCells all_cells(const std::vector<CellCount>& counts) {
+  Cells cells;
+  for (const CellCount& count : counts) {
+    CellState& cell = cells[key_of(count)];
+    cell.points += count.points;
+    cell.kept = true;
   }
-  result.thin = thin_end(cells);
-  return result;
+  return {kept_tiles(cells), {}};
 }
 
 }  // namespace roomcut::ingest

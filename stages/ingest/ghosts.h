@@ -40,4 +40,7 @@ struct KeptCells {
 /// as dense as the hall is a building. Other cells are kept when they touch a kept one.
 KeptCells without_ghosts(const std::vector<CellCount>& counts);
 
+/// The same without any doubt: every cell is kept.
+KeptCells all_cells(const std::vector<CellCount>& counts);
+
 }  // namespace roomcut::ingest

@@ -12,6 +12,7 @@ struct IngestParams {
   double level_min_nz = 0.92;  ///< and level when |nz| is above this
   double planar_ratio =
       0.5;  ///< a neighbourhood is a plane when its two smallest variances differ by this factor
+  bool drop_ghosts = true;  ///< sparse points far from the building are left out
 };
 
 /// The block `ingest` of pipeline.yaml, bound to `p`.
@@ -23,6 +24,8 @@ inline ParameterTable parameters(IngestParams& p) {
              "A plane is a wall when |nz| of its normal is below"),
       number("level_min_nz", p.level_min_nz, "1", 0.7, 0.999,
              "A plane is a floor or ceiling when |nz| of its normal is above"),
+      boolean("drop_ghosts", p.drop_ghosts,
+              "Sparse points far from the building, from mirrors, glass and the sky, are left out."),
       number("planar_ratio", p.planar_ratio, "1", 0.05, 0.9,
              "Points lie on a plane when their smallest variance is below this share of the middle one"),
   };

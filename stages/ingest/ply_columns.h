@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "stages/ingest/ply_header.h"
+#include "common/ply/ply_header.h"
 #include "stages/ingest/scan_reader.h"
 
 namespace roomcut::ingest {

@@ -3,7 +3,8 @@
 
 #include <string>
 
-#include "stages/ingest/ply_header.h"
+#include "common/ply/ply_header.h"
+#include "stages/ingest/scan_bytes.h"
 
 namespace roomcut::ingest {
 

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "common/errors/codes.h"
 #include "stages/ingest/byte_cursor.h"
@@ -42,6 +44,26 @@ bool walk_record(const PlyElement& element, bool swap, ByteCursor& cursor, Take&
     }
   }
   return true;
+}
+
+/// Errors: kScanFormat (with the header's line), kScanTruncated (no end_header).
+PlyHeader read_header(const ScanBytes& file) {
+  std::string text(static_cast<std::size_t>(std::min<std::uint64_t>(file.size(), kLargestPlyHeader)), '\0');
+  text.resize(file.read(0, text.data(), text.size()));
+  const std::string again = "export the scan again as PLY, ascii or binary";
+  try {
+    if (std::optional<PlyHeader> header = parse_ply_header(text)) {
+      return std::move(*header);
+    }
+  } catch (const PlyHeaderError& wrong) {
+    throw StageError(errors::kScanFormat, file.name() + ": header line " + std::to_string(wrong.line),
+                     wrong.cause, again);
+  }
+  if (text.size() == kLargestPlyHeader) {
+    throw StageError(errors::kScanFormat, file.name(), "no end_header within the first MiB", again);
+  }
+  throw StageError(errors::kScanTruncated, file.name(), "the header ends before end_header",
+                   "export or copy the scan again");
 }
 
 bool swaps(const PlyHeader& header) {
@@ -207,7 +229,7 @@ bool is_ply(std::string_view head) {
 
 std::unique_ptr<ScanReader> open_ply(const std::shared_ptr<const ScanBytes>& file,
                                      const std::shared_ptr<const TextBytes>& text) {
-  const PlyHeader header = read_ply_header(text->same_places() ? *file : *text);
+  const PlyHeader header = read_header(text->same_places() ? *file : *text);
   if (header.format != PlyFormat::kAscii && !text->same_places()) {
     throw StageError(
         errors::kScanFormat, file->name(),

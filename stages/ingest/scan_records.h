@@ -4,7 +4,7 @@
 #include <array>
 #include <memory>
 
-#include "stages/ingest/scalar_type.h"
+#include "common/ply/scalar_type.h"
 #include "stages/ingest/scan_reader.h"
 
 namespace roomcut::ingest {

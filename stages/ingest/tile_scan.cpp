@@ -177,7 +177,8 @@ TiledScan tile_scan(const ScanReader& reader, const ScanSettings& settings, cons
                                             " points has finite coordinates other than 0 0 0",
                      "export the scan again");
   }
-  KeptCells kept = without_ghosts(scan.store->index_tiles());
+  const std::vector<CellCount> cells = scan.store->index_tiles();
+  KeptCells kept = params.drop_ghosts ? without_ghosts(cells) : all_cells(cells);
   scan.tiles = std::move(kept.tiles);
   counts.thin = kept.thin.points;
   scan.thin_reach_m = kept.thin.cells * scale.tile_edge_m();

@@ -5,11 +5,10 @@
 #include <numeric>
 
 #include "common/errors/codes.h"
-#include "stages/partition/insert_line.h"
+#include "common/plan/plan_complex.h"
+#include "common/plan/segment_inserter.h"
 #include "stages/partition/prune.h"
-#include "stages/partition/reach.h"
-#include "stages/partition/subdivision.h"
-#include "stages/partition/to_complex.h"
+#include "stages/partition/shared_edges.h"
 
 namespace roomcut::partition {
 
@@ -63,8 +62,8 @@ void bounding_box(const WallLines& lines, double margin, Vec2& low, Vec2& high) 
   high.array() += margin;
 }
 
-std::vector<Reach> reaches(const std::vector<CellComplex::Line>& lines, double extend_m) {
-  std::vector<Reach> reach;
+std::vector<PlanSegment> reaches(const std::vector<CellComplex::Line>& lines, double extend_m) {
+  std::vector<PlanSegment> reach;
   for (const CellComplex::Line& line : lines) {
     reach.push_back({line.line, line.t0 - extend_m, line.t1 + extend_m});
   }
@@ -116,11 +115,11 @@ Partition partition(const WallLines& lines, const std::vector<double>& levels,
   Vec2 high;
   bounding_box(lines, params.margin_m, low, high);
   Subdivision plan(low, high);
-  LineInserter inserter(plan);
+  SegmentInserter inserter(plan);
   const std::vector<std::int32_t> order = by_falling_support(lines.lines);
-  const std::vector<Reach> reach = reaches(complex.lines, params.extend_m);
+  const std::vector<PlanSegment> reach = reaches(complex.lines, params.extend_m);
   for (const std::int32_t i : order) {
-    inserter.insert(reach[i].line, reach[i].t0, reach[i].t1, i);
+    inserter.insert(reach[i], i);
     check_budget(plan.face_start.size(), complex.layers(), params);
   }
   result.faces_before_pruning = plan.face_start.size();
@@ -128,7 +127,7 @@ Partition partition(const WallLines& lines, const std::vector<double>& levels,
   if (params.prune) {
     prune(plan, reach, order);
   }
-  to_complex(plan, complex);
+  set_plan(plan, plan.faces_in_tree_order(), complex);
   result.without_edge = lines_without_edge(complex);
   return result;
 }

@@ -17,7 +17,7 @@ namespace {
 constexpr double kStraight_m = 1e-10;
 
 /// Whether the edge lies beyond its line's reach.
-bool beyond_reach(const Subdivision& plan, const std::vector<Reach>& reach, std::int32_t h) {
+bool beyond_reach(const Subdivision& plan, const std::vector<PlanSegment>& reach, std::int32_t h) {
   const std::int32_t line = plan.half_edges[h].line;
   if (line == Subdivision::kNoLine || plan.is_removed(h)) {
     return false;
@@ -58,7 +58,7 @@ bool convex_together(const Subdivision& plan, std::int32_t h) {
 
 }  // namespace
 
-void prune(Subdivision& plan, const std::vector<Reach>& reach, const std::vector<std::int32_t>& order) {
+void prune(Subdivision& plan, const std::vector<PlanSegment>& reach, const std::vector<std::int32_t>& order) {
   std::vector<std::int32_t> strength(reach.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     strength[order[i]] = static_cast<std::int32_t>(order.size() - i);

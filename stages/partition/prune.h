@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "stages/partition/reach.h"
+#include "common/plan/plan_segment.h"
 
 namespace roomcut::partition {
 
@@ -14,6 +14,6 @@ namespace roomcut::partition {
 /// the next line that stays. Weak lines go first (`order` lists the line indices, strongest first).
 /// Afterwards a building that stands n times side by side has n times the cells of one, and the strongest
 /// line of one room does not cut the rooms at the other end.
-void prune(Subdivision& plan, const std::vector<Reach>& reach, const std::vector<std::int32_t>& order);
+void prune(Subdivision& plan, const std::vector<PlanSegment>& reach, const std::vector<std::int32_t>& order);
 
 }  // namespace roomcut::partition

@@ -55,30 +55,25 @@ class RaySequence {
   std::array<double, kNumbers> step_{}, begin_{};
 };
 
-Vec3 middle_of(const CellComplex& complex, std::size_t face, std::size_t layer) {
-  const Vec2 centre = complex.centroid(face);
-  return {centre.x(), centre.y(), complex.levels[layer] + 0.5 * complex.height(layer)};
-}
-
 RayStart ray_from(const CellComplex& complex, const FaceWalk& walk, std::size_t face, std::size_t layer,
-                  const RaySequence& sequence, std::size_t ray) {
+                  const RaySequence& sequence, const RayRules& rules, std::size_t ray) {
   // Every other ray is level: it still counts walls where floor or ceiling was not seen.
-  const bool level = ray % 2 == 0;
-  const auto number = [&](std::size_t k) { return sequence.number(ray / 2, k); };
-  const Vec2 p = walk.point_in(face, number(0), number(1));
-  const double z = complex.levels[layer] + number(2) * complex.height(layer);
+  const bool level = rules.level && ray % 2 == 0;
+  const auto number = [&](std::size_t k) { return sequence.number(rules.level ? ray / 2 : ray, k); };
   const double azimuth = 2 * std::numbers::pi * number(3);
   const double up = level ? 0.0 : 2 * number(4) - 1;
   const double flat = std::sqrt(1 - up * up);
-  return {{p.x(), p.y(), z}, {flat * std::cos(azimuth), flat * std::sin(azimuth), up}};
+  const Vec3 direction{flat * std::cos(azimuth), flat * std::sin(azimuth), up};
+  if (rules.from_centre) return {complex.centre(complex.cell(face, layer)), direction};
+  const Vec2 p = walk.point_in(face, number(0), number(1));
+  return {{p.x(), p.y(), complex.levels[layer] + number(2) * complex.height(layer)}, direction};
 }
 
 /// Covered area of the cell's own faces that shows it its front (.first) or its back (.second).
 void add_own_faces(const CellComplex& complex, const FaceWeights& weights, std::size_t face,
                    std::size_t layer, CellEvidence& evidence) {
-  for (auto i = static_cast<std::size_t>(complex.face_offset[face]);
-       i < static_cast<std::size_t>(complex.face_offset[face + 1]); ++i) {
-    const auto edge = static_cast<std::size_t>(complex.face_edge[i]);
+  for (const std::int32_t side : complex.edges_of(face)) {
+    const auto edge = static_cast<std::size_t>(side);
     const bool is_left = complex.edges[edge].left == static_cast<std::int32_t>(face);
     const std::size_t w = complex.wall_face(edge, layer);
     const double area = complex.length(edge) * complex.height(layer);
@@ -166,13 +161,14 @@ void count_crossings(const std::vector<Crossing>& crossings, CellEvidence& evide
 void look_around(const CellComplex& complex, const FaceWalk& walk, std::size_t face, std::size_t layer,
                  const RayRules& rules, std::vector<Crossing>& scratch, CellEvidence& evidence) {
   const int rays = rules.rays;
-  const RaySequence sequence(middle_of(complex, face, layer));
+  const RaySequence sequence(complex.centre(complex.cell(face, layer)));
   int rising = 0;
   int level = 0;
   int counted = 0;
   for (int r = 0; r < rays; ++r) {
-    const RayStart start = ray_from(complex, walk, face, layer, sequence, static_cast<std::size_t>(r));
-    const bool is_level = start.direction.z() == 0;
+    const RayStart start = ray_from(complex, walk, face, layer, sequence, rules, static_cast<std::size_t>(r));
+    // Without level rays those that hardly rise or fall tell how open a cell is.
+    const bool is_level = std::abs(start.direction.z()) <= (rules.level ? 0 : kRising);
     const bool to_the_end = rules.parity || std::abs(start.direction.z()) > kRising;
     walk.follow({start.origin, start.direction, face, layer}, scratch, kNoLimit, to_the_end ? 0 : kOpaque);
     if (to_the_end) {
@@ -190,6 +186,7 @@ void look_around(const CellComplex& complex, const FaceWalk& walk, std::size_t f
       evidence.sky += hit.nothing();
     }
   }
+  if (level == 0) evidence.level.front = 1;  // none was asked: no sign of an opening
   FirstHit mean;
   mean.add(evidence.level, 1.0 / std::max(1, level));
   evidence.level = mean;

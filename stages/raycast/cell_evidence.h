@@ -51,12 +51,14 @@ struct CellEvidence {
 FirstHit first_hit(const std::vector<Crossing>& crossings);
 
 struct RayRules {
-  int rays = 64;        ///< per cell, every other one level
-  bool parity = false;  ///< crossings are counted along all rays, not only along steep ones
+  int rays = 64;             ///< per cell
+  bool parity = false;       ///< crossings are counted along all rays, not only along steep ones
+  bool from_centre = false;  ///< all rays begin at the cell's centre
+  bool level = true;         ///< every other ray is level
 };
 
-/// Casts rays from points spread over the cell. Pure function of its arguments; of the cell only its place
-/// decides which rays. `scratch` is reused storage.
+/// Casts rays from points spread over the cell, or from its centre. Pure function of its arguments; of the
+/// cell only its place decides which rays. `scratch` is reused storage.
 CellEvidence gather_evidence(const CellComplex& complex, const FaceWeights& weights, const FaceWalk& walk,
                              std::size_t face, std::size_t layer, const RayRules& rules,
                              std::vector<Crossing>& scratch);

@@ -35,22 +35,17 @@ FaceWalk::FaceWalk(const CellComplex& complex, const FaceWeights& weights)
   }
   sides_.reserve(complex.face_vertex.size());
   for (std::size_t f = 0; f < complex.faces(); ++f) {
-    const std::int64_t begin = complex.face_offset[f];
-    const std::int64_t end = complex.face_offset[f + 1];
-    for (std::int64_t i = begin; i < end; ++i) {
-      const std::int64_t next = i + 1 < end ? i + 1 : begin;
-      const Vec2& a =
-          complex.vertices[static_cast<std::size_t>(complex.face_vertex[static_cast<std::size_t>(i)])];
-      const Vec2& b =
-          complex.vertices[static_cast<std::size_t>(complex.face_vertex[static_cast<std::size_t>(next)])];
-      const Vec2 along = (b - a).normalized();
-      const std::int32_t e = complex.face_edge[static_cast<std::size_t>(i)];
+    const FaceCorners corners = complex.corners(f);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Vec2& a = corners[i];
+      const Vec2 along = (corners.after(i) - a).normalized();
+      const std::int32_t e = complex.edges_of(f)[i];
       const CellComplex::Edge& edge = complex.edges[static_cast<std::size_t>(e)];
       const bool is_left = edge.left == static_cast<std::int32_t>(f);
       const double nx = along.y();
       const double ny = -along.x();
-      sides_.push_back(
-          {a.x(), a.y(), nx, ny, nx * a.x() + ny * a.y(), e, is_left ? edge.right : edge.left, is_left});
+      sides_.push_back({a.x(), a.y(), nx, ny, nx * a.x() + ny * a.y(), e,
+                        edge.across(static_cast<std::int32_t>(f)), is_left});
     }
   }
 }
@@ -146,38 +141,32 @@ void FaceWalk::follow(const Ray& ray, std::vector<Crossing>& crossings, double l
 /// one however the face's corners are numbered.
 std::size_t FaceWalk::first_corner(std::size_t face) const {
   const Vec2 direction(0.8507, 0.5257);
-  const auto begin = complex_.face_vertex.begin() + complex_.face_offset[face];
-  const auto end = complex_.face_vertex.begin() + complex_.face_offset[face + 1];
-  const auto farthest = std::max_element(begin, end, [&](std::int32_t a, std::int32_t b) {
-    return direction.dot(complex_.vertices[static_cast<std::size_t>(a)]) <
-           direction.dot(complex_.vertices[static_cast<std::size_t>(b)]);
-  });
-  return static_cast<std::size_t>(farthest - begin);
+  const FaceCorners corners = complex_.corners(face);
+  std::size_t farthest = 0;
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    farthest = direction.dot(corners[farthest]) < direction.dot(corners[i]) ? i : farthest;
+  }
+  return farthest;
 }
 
 Vec2 FaceWalk::point_in(std::size_t face, double u, double v) const {
-  const auto begin = static_cast<std::size_t>(complex_.face_offset[face]);
-  const auto end = static_cast<std::size_t>(complex_.face_offset[face + 1]);
-  const std::size_t corners = end - begin;
+  const FaceCorners corners = complex_.corners(face);
   const std::size_t first = first_corner(face);
-  const auto corner = [&](std::size_t i) -> const Vec2& {
-    return complex_
-        .vertices[static_cast<std::size_t>(complex_.face_vertex[begin + (first + i - begin) % corners])];
-  };
-  const Vec2& a = corner(begin);
+  const auto corner = [&](std::size_t i) -> const Vec2& { return corners[(first + i) % corners.size()]; };
+  const Vec2& a = corner(0);
   const auto twice_area = [&](std::size_t i) {
     const Vec2 b = corner(i) - a;
     const Vec2 c = corner(i + 1) - a;
     return b.x() * c.y() - b.y() * c.x();
   };
   double total = 0;
-  for (std::size_t i = begin + 1; i + 1 < end; ++i) {
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
     total += twice_area(i);
   }
   double rest = u * total;
-  std::size_t i = begin + 1;
+  std::size_t i = 1;
   double here = twice_area(i);
-  for (; i + 2 < end && rest >= here; here = twice_area(++i)) {
+  for (; i + 2 < corners.size() && rest >= here; here = twice_area(++i)) {
     rest -= here;
   }
   // The rest of u is again uniform; folding (s, t) at the diagonal makes the triangle uniform.

@@ -6,41 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
+
+#include "common/cells/face_locator.h"
 
 namespace roomcut::raycast {
 namespace {
 
 constexpr std::size_t kDirections = 8192;
 constexpr double kShort = 0.1;  // [m] a ray stops this far before its surface, whose place is not exact
-
-struct Place {
-  std::size_t face, layer;
-};
-
-std::optional<Place> place_of(const CellComplex& complex, const Vec3& p) {
-  const auto above = std::upper_bound(complex.levels.begin(), complex.levels.end(), p.z());
-  if (above == complex.levels.begin() || above == complex.levels.end()) {
-    return std::nullopt;
-  }
-  for (std::size_t f = 0; f < complex.faces(); ++f) {
-    const auto begin = static_cast<std::size_t>(complex.face_offset[f]);
-    const auto end = static_cast<std::size_t>(complex.face_offset[f + 1]);
-    bool inside = true;
-    for (std::size_t i = begin; i < end && inside; ++i) {
-      const Vec2& a = complex.vertices[static_cast<std::size_t>(complex.face_vertex[i])];
-      const Vec2& b =
-          complex.vertices[static_cast<std::size_t>(complex.face_vertex[i + 1 < end ? i + 1 : begin])];
-      const Vec2 along = b - a;
-      const Vec2 to = p.head<2>() - a;
-      inside = along.x() * to.y() - along.y() * to.x() >= 0;
-    }
-    if (inside) {
-      return Place{f, static_cast<std::size_t>(above - complex.levels.begin()) - 1};
-    }
-  }
-  return std::nullopt;
-}
 
 /// Evenly spread directions (Fibonacci's spiral).
 Vec3 direction(std::size_t i) {
@@ -80,23 +53,25 @@ void carve(const std::vector<Crossing>& crossings, std::vector<double>& volume) 
 
 std::vector<double> carve_lines_of_sight(const CellComplex& complex, const FaceWalk& walk,
                                          const std::vector<Vec3>& stations) {
+  const FaceLocator locator(complex);
   std::vector<std::vector<double>> volume(stations.size());
   tbb::parallel_for(std::size_t{0}, stations.size(), [&](std::size_t s) {
-    const std::optional<Place> place = place_of(complex, stations[s]);
-    if (!place) {
+    const std::int64_t at = locator.cell_at(stations[s]);
+    if (at < 0) {
       return;
     }
+    const auto cell = static_cast<std::size_t>(at);
     volume[s].assign(complex.cells(), 0);
     std::vector<Crossing> crossings;
     for (std::size_t i = 0; i < kDirections; ++i) {
-      walk.follow({stations[s], direction(i), place->face, place->layer}, crossings);
+      walk.follow({stations[s], direction(i), complex.face_of(cell), complex.layer_of(cell)}, crossings);
       carve(crossings, volume[s]);
     }
   });
   std::vector<double> unseen(complex.cells(), 1);
   for (const std::vector<double>& of_station : volume) {
     for (std::size_t c = 0; c < of_station.size(); ++c) {
-      const double whole = complex.area(c % complex.faces()) * complex.height(c / complex.faces());
+      const double whole = complex.volume(c);
       unseen[c] *= std::max(0.0, 1 - of_station[c] / whole);
     }
   }

@@ -16,9 +16,8 @@ void body(StageRun& run, const RaycastParams& params) {
 
   double empty = 0;
   double unclear = 0;
-  const std::size_t faces = cells.complex.faces();
-  for (std::size_t c = 0; faces > 0 && c < terms.beta.size(); ++c) {
-    const double volume = cells.complex.area(c % faces) * cells.complex.height(c / faces);
+  for (std::size_t c = 0; c < terms.beta.size(); ++c) {
+    const double volume = cells.complex.volume(c);
     empty += terms.beta[c] > 0.5F ? volume : 0;
     unclear += terms.beta[c] > 0.3F && terms.beta[c] < 0.7F ? volume : 0;
   }

@@ -5,7 +5,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -70,22 +69,21 @@ void add_implied_faces(const CellComplex& complex, const FaceWalk& walk, DataTer
 
 DataTerms cast_rays(const CellComplex& complex, const FaceWeights& weights, const RaycastParams& params) {
   const std::size_t cells = complex.cells();
-  const std::size_t faces = complex.faces();
-  assert(cells == 0 || faces > 0);
   DataTerms terms;
   terms.reset(complex);
   const FaceWalk walk(complex, weights);
   const bool parity = params.evidence == "parity";
-  if (!parity) {
+  if (params.implied_faces && !parity) {
     add_implied_faces(complex, walk, terms);
   }
+  const RayRules rules{params.rays, parity, params.origins == "centre", params.level_rays};
   const std::vector<double> carved = carve_lines_of_sight(complex, walk, weights.stations);
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, cells, 16), [&](const tbb::blocked_range<std::size_t>& range) {
         std::vector<Crossing> scratch;
         for (std::size_t c = range.begin(); c < range.end(); ++c) {
-          CellEvidence e =
-              gather_evidence(complex, weights, walk, c % faces, c / faces, {params.rays, parity}, scratch);
+          CellEvidence e = gather_evidence(complex, weights, walk, complex.face_of(c), complex.layer_of(c),
+                                           rules, scratch);
           e.carved = carved[c];
           store(e, c, terms);
           const double beta = parity ? sigmoid(10 * (e.kappa - 0.5)) : sigmoid(empty_log_odds(e));

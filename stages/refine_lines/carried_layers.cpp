@@ -58,7 +58,7 @@ Loads find_loads(const CellComplex& complex, const FaceWeights& weights,
     if (!face.wall) {
       return;
     }
-    const CellComplex::Edge& edge = complex.edges[face.index % complex.edges.size()];
+    const CellComplex::Edge& edge = complex.edges[complex.edge_of_wall(face.index)];
     const float seen = weights.wall_omega[face.index];
     const bool surface = is_surface(face, label);
     if (edge.line < 0 || (!surface && seen < kSeen)) {
@@ -68,7 +68,7 @@ Loads find_loads(const CellComplex& complex, const FaceWeights& weights,
     const Line2& line = complex.lines[i].line;
     const double a = line.along(complex.vertices[static_cast<std::size_t>(edge.v0)]);
     const double b = line.along(complex.vertices[static_cast<std::size_t>(edge.v1)]);
-    pieces[face.index / complex.edges.size()][i].push_back(
+    pieces[complex.layer_of_wall(face.index)][i].push_back(
         {std::min(a, b), std::max(a, b), surface ? std::max(seen, kUnseen) : seen});
   });
   Loads loads(complex.layers(), std::vector<Load>(complex.lines.size()));

@@ -18,12 +18,6 @@ struct Piece {
   bool towards_normal;  ///< the empty side
 };
 
-bool is_empty(const CellComplex& complex, const std::vector<std::uint8_t>& label, std::int32_t face,
-              std::size_t layer) {
-  return face >= 0 && label[complex.cell(static_cast<std::size_t>(face), layer)] ==
-                          static_cast<std::uint8_t>(Label::kEmpty);
-}
-
 std::vector<std::vector<Piece>> find_pieces(const CellComplex& complex,
                                             const std::vector<std::uint8_t>& label,
                                             const CarriedRuns& carried) {

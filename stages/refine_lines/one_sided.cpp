@@ -22,12 +22,6 @@ constexpr double kUsual = 0.15;     // [m] where the building tells nothing
 constexpr double kParallel = 3 * std::numbers::pi / 180;
 constexpr double kOverlap = 0.5;  // share of the wall along which another line closes it
 
-bool is_empty(const CellComplex& complex, const std::vector<std::uint8_t>& label, std::int32_t face,
-              std::size_t layer) {
-  return face >= 0 && label[complex.cell(static_cast<std::size_t>(face), layer)] ==
-                          static_cast<std::uint8_t>(Label::kEmpty);
-}
-
 /// Along which t the edge runs on its line.
 std::pair<double, double> interval_of(const CellComplex& complex, std::size_t edge) {
   const CellComplex::Edge& e = complex.edges[edge];

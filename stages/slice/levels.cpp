@@ -278,7 +278,7 @@ std::vector<HeightMode> height_modes(const std::vector<SurfaceCell>& cells, cons
   const Density density = density_of(cells, rules.bandwidth_m);
   std::vector<Peak> peaks = peaks_of(density.value);
   fill_basins(peaks, density, cells);
-  join_modes(peaks, density.value, rules.noise_m);
+  if (rules.join_modes) join_modes(peaks, density.value, rules.noise_m);
   std::vector<HeightMode> modes;
   for (const Peak& peak : peaks) {
     if (peak.area_m2 < 0.5) continue;
@@ -297,19 +297,23 @@ std::vector<Level> find_levels(const HeightSurvey& survey, const std::vector<Sur
   std::vector<Candidate> candidates(modes.size());
   tbb::parallel_for(std::size_t{0}, modes.size(),
                     [&](std::size_t i) { candidates[i] = measure(survey, cells, modes[i]); });
+  const auto size_of = [&](const Level& level) {
+    return rules.connected ? level.component_m2 : level.area_m2;
+  };
   double largest = 0;
-  for (const Candidate& candidate : candidates) largest = std::max(largest, candidate.level.component_m2);
+  for (const Candidate& candidate : candidates) largest = std::max(largest, size_of(candidate.level));
   const double smallest = std::max(0.5, std::min(rules.min_component_m2, 0.5 * largest));
+  const double speck = rules.connected ? smallest : 0;  // smaller surfaces make no level
   const CellIndex index(cells);
   const PlanMask empty_plan(cells, survey.raster_m);
   tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
-    const bool large = candidates[i].level.component_m2 >= smallest;
+    const bool large = size_of(candidates[i].level) >= smallest;
     candidates[i].floor = large && is_floor(candidates[i], survey, empty_plan);
   });
   std::vector<Level> levels;
   for (const Candidate& candidate : candidates) {
-    if (candidate.level.component_m2 >= smallest &&
-        !only_furniture(candidate, candidates, index, survey, smallest)) {
+    if (size_of(candidate.level) >= smallest &&
+        !(rules.furniture && only_furniture(candidate, candidates, index, survey, speck))) {
       levels.push_back(candidate.level);
     } else if (rejected != nullptr) {
       rejected->push_back(candidate.level);

@@ -14,6 +14,9 @@ struct LevelRules {
   double bandwidth_m = 0;       ///< Gaussian mean shift
   double raster_m = 0;          ///< of the cells
   double min_component_m2 = 0;  ///< upper bound: half of the largest surface is enough in a small room
+  bool join_modes = true;       ///< modes that are nearly one become one
+  bool connected = true;        ///< a level needs one connected surface of that size, else that much in all
+  bool furniture = true;        ///< furniture is told apart
 };
 
 /// A mode of the density of horizontal area over height, with its basin: the range from which mean shift
@@ -25,8 +28,8 @@ struct HeightMode {
 
 /// Modes of the density of horizontal area, ascending. Each cell is a Gaussian of its area, as wide as the
 /// bandwidth or as 1.5 times the drift of its surface: one bandwidth would either tear drifting floors apart
-/// or join ceilings that differ by a hand's breadth. Modes nearer than max(2.5 cm, 4 noise) are one.
-/// Deterministic.
+/// or join ceilings that differ by a hand's breadth. With `join_modes`, modes nearer than max(2.5 cm, 4
+/// noise) are one. Deterministic.
 std::vector<HeightMode> height_modes(const std::vector<SurfaceCell>& cells, const LevelRules& rules);
 
 /// Levels, ascending: the modes whose band, cut off where the density's gradient flattens, holds a connected

@@ -36,6 +36,9 @@ LevelRules level_rules(const CloudHeader& header, const SliceParams& params,
   rules.raster_m =
       resolve(params.raster_m, std::clamp(preferred_number(2.5 * spacing), 0.10, 0.40), "raster_m", choices);
   rules.min_component_m2 = resolve(params.min_component_m2, 4.0, "min_component_m2", choices);
+  rules.join_modes = params.join_modes;
+  rules.connected = params.connected;
+  rules.furniture = params.furniture;
   return rules;
 }
 
@@ -105,9 +108,9 @@ void require_vertical(const HeightSurvey& survey, const std::vector<OccupancyGri
 SliceResult slice_cloud(const CloudHeader& header, const TileSource& tiles, const SliceParams& params) {
   SliceResult result;
   const LevelRules rules = level_rules(header, params, result.choices);
-  const HeightSurvey survey = survey_heights(header, tiles, rules.raster_m, kHistogramBin);
+  const HeightSurvey survey = survey_heights(header, tiles, rules.raster_m, kHistogramBin, params.by_area);
   std::vector<SurfaceCell> cells = surface_cells(survey.patches, rules.noise_m);
-  measure_drift(cells, rules.raster_m, rules.noise_m);
+  if (params.drift) measure_drift(cells, rules.raster_m, rules.noise_m);
 
   Slices& slices = result.slices;
   slices.frame = header.frame;
@@ -124,7 +127,7 @@ SliceResult slice_cloud(const CloudHeader& header, const TileSource& tiles, cons
   slices.tau_m = choose_tau(header, params, result.choices);
   const auto ranges =
       evidence_ranges(slices.levels, params.tall_slice_m, params.evidence_share, 0.5 * slices.tau_m);
-  slices.wall_slices = occupy_wall_slices(tiles, ranges, slices.tau_m);
+  slices.wall_slices = occupy_wall_slices(tiles, ranges, slices.tau_m, params.upright_only);
   require_vertical(survey, slices.wall_slices);
   return result;
 }

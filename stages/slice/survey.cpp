@@ -42,12 +42,13 @@ struct Sums {
   CellTable<AreaSum> upright;
 };
 
-void add_patch(CellTable<PatchSum>& table, const CloudTile& tile, std::size_t i, double raster_m) {
+void add_patch(CellTable<PatchSum>& table, const CloudTile& tile, std::size_t i, double raster_m,
+               float area_m2) {
   const CellKey key{floor_to_int(tile.x[i] / raster_m), floor_to_int(tile.y[i] / raster_m),
                     floor_to_int(tile.z[i] / kPatchBin)};
   const double above_bin = tile.z[i] - key.iz * kPatchBin;
-  table.at(key) += {1, to_units(tile.area[i], kAreaUnit),
-                    to_units(above_bin * static_cast<double>(tile.area[i]), kMomentUnit)};
+  table.at(key) +=
+      {1, to_units(area_m2, kAreaUnit), to_units(above_bin * static_cast<double>(area_m2), kMomentUnit)};
 }
 
 void add_upright(CellTable<AreaSum>& table, const CloudTile& tile, std::size_t i) {
@@ -94,8 +95,8 @@ std::vector<SurfacePatch> to_patches(const std::vector<CellEntry<PatchSum>>& ent
 
 }  // namespace
 
-HeightSurvey survey_heights(const CloudHeader& header, const TileSource& tiles, double raster_m,
-                            double bin_m) {
+HeightSurvey survey_heights(const CloudHeader& header, const TileSource& tiles, double raster_m, double bin_m,
+                            bool by_area) {
   // One empty bin at both ends, so that no peak lies on the border.
   const double z0 = (std::floor(header.bbox_min.z() / bin_m) - 1) * bin_m;
   const auto bins = static_cast<std::size_t>(std::floor((header.bbox_max.z() - z0) / bin_m)) + 2;
@@ -104,6 +105,7 @@ HeightSurvey survey_heights(const CloudHeader& header, const TileSource& tiles, 
   });
   CellParts<PatchSum, decltype(by_column)> patches(by_column);
   CellParts<AreaSum, decltype(by_column)> upright(by_column);
+  const float mean_m2 = header.density > 0 ? static_cast<float>(1 / header.density) : 1.0F;
 
   tiles([&](std::size_t index, const CloudTile& tile) {
     Sums& sums = threads.local();
@@ -112,8 +114,9 @@ HeightSurvey survey_heights(const CloudHeader& header, const TileSource& tiles, 
       if (surface == SurfaceClass::kHorizontal) {
         const double position = (tile.z[i] - z0) / bin_m;
         const auto bin = static_cast<std::size_t>(std::clamp(position, 0.0, static_cast<double>(bins - 1)));
-        sums.histogram[bin] += to_units(tile.area[i], kAreaUnit);
-        add_patch(sums.patches, tile, i, raster_m);
+        const float area_m2 = by_area ? tile.area[i] : mean_m2;
+        sums.histogram[bin] += to_units(area_m2, kAreaUnit);
+        add_patch(sums.patches, tile, i, raster_m, area_m2);
       } else if (surface != SurfaceClass::kNone) {
         add_upright(sums.upright, tile, i);
       }

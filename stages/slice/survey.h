@@ -36,9 +36,9 @@ struct HeightSurvey {
 };
 
 /// Sums horizontal, wall and sloped points over heights (one pass). Every point weighs the area it stands
-/// for, which takes the anisotropy of the scan out of the histogram. Integer sums: the result does not depend
-/// on order or threads.
-HeightSurvey survey_heights(const CloudHeader& header, const TileSource& tiles, double raster_m,
-                            double bin_m);
+/// for, which takes the anisotropy of the scan out of the histogram; without `by_area` horizontal points
+/// weigh all the same, the scan's mean. Integer sums: the result does not depend on order or threads.
+HeightSurvey survey_heights(const CloudHeader& header, const TileSource& tiles, double raster_m, double bin_m,
+                            bool by_area = true);
 
 }  // namespace roomcut::slice

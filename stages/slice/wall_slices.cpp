@@ -68,15 +68,15 @@ int range_of(const std::vector<EvidenceRange>& ranges, float z) {
 }
 
 void add_tile(const CloudTile& tile, const std::vector<EvidenceRange>& ranges, double tau_m,
-              CellTable<EvidenceSum>& table) {
+              bool upright_only, CellTable<EvidenceSum>& table) {
   static const std::array<Direction, kAzimuthSteps> kDirections = direction_table();
   for (std::size_t i = 0; i < tile.size(); ++i) {
     const auto surface = static_cast<SurfaceClass>(tile.surface[i]);
-    if (surface == SurfaceClass::kHorizontal) continue;
+    if (upright_only && surface == SurfaceClass::kHorizontal) continue;
     const int slice = range_of(ranges, tile.z[i]);
     if (slice < 0) continue;
     const EvidenceRange& range = ranges[static_cast<std::size_t>(slice)];
-    const bool slope = surface == SurfaceClass::kSloped;
+    const bool slope = upright_only && surface == SurfaceClass::kSloped;
     if (slope && !(std::abs(tile.z[i] - range.contour_z) < range.contour_half_m)) continue;
     const std::int32_t column = floor_to_int(tile.x[i] / tau_m);
     const std::int32_t row = floor_to_int(tile.y[i] / tau_m);
@@ -162,12 +162,13 @@ std::vector<EvidenceRange> evidence_ranges(const std::vector<Level>& levels, dou
 }
 
 std::vector<OccupancyGrid> occupy_wall_slices(const TileSource& tiles,
-                                              const std::vector<EvidenceRange>& ranges, double tau_m) {
+                                              const std::vector<EvidenceRange>& ranges, double tau_m,
+                                              bool upright_only) {
   tbb::enumerable_thread_specific<CellTable<EvidenceSum>> tables;
   CellParts<EvidenceSum, decltype(by_slice)> parts(by_slice);
   tiles([&](std::size_t index, const CloudTile& tile) {
     CellTable<EvidenceSum>& table = tables.local();
-    add_tile(tile, ranges, tau_m, table);
+    add_tile(tile, ranges, tau_m, upright_only, table);
     parts.add(index, table.take());
   });
   std::vector<OccupancyGrid> grids(ranges.size());

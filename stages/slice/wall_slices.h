@@ -27,10 +27,11 @@ std::vector<EvidenceRange> evidence_ranges(const std::vector<Level>& levels, dou
 
 /// Occupancy of the wall slices (paper §2: down-sampling by an occupancy map of edge tau), one pass over the
 /// points. Wall points and points without a plane count, horizontal ones do not, sloped ones on
-/// the contours only. Coverage is the
+/// the contours only; without `upright_only` all count. Coverage is the
 /// share of occupied height bins over the share to be expected on a closed wall at the cell's density.
 /// Integer sums: order-free. Memory: the occupied cells, nothing dense.
 std::vector<OccupancyGrid> occupy_wall_slices(const TileSource& tiles,
-                                              const std::vector<EvidenceRange>& ranges, double tau_m);
+                                              const std::vector<EvidenceRange>& ranges, double tau_m,
+                                              bool upright_only = true);
 
 }  // namespace roomcut::slice

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "stages/weigh_faces/plan_grid.h"
+#include "common/cells/plan_grid.h"
 
 namespace roomcut::weigh_faces {
 

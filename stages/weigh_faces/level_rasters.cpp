@@ -147,7 +147,8 @@ std::vector<float> LevelRasters::covered_share(const Plan& plan, std::size_t bas
     if (seen[i] != 0) {
       const FaceRaster::Piece& piece = faces_.piece(i);
       covered[static_cast<std::size_t>(piece.face)] +=
-          piece.area * occupancy_weight(density[plan.bin_of_piece[i]], piece.area);
+          piece.area *
+          (tolerances_.correct_density ? occupancy_weight(density[plan.bin_of_piece[i]], piece.area) : 1);
     }
   }
   for (std::size_t f = 0; f < share.size(); ++f) {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "common/cells/plan_grid.h"
 #include "common/cloud/cloud.h"
-#include "stages/weigh_faces/plan_grid.h"
 
 namespace roomcut::weigh_faces {
 

@@ -146,7 +146,7 @@ void PointSorter::add(const Vec3& point, SurfaceClass surface, std::uint8_t azim
   const bool loose =
       surface == SurfaceClass::kNone && off < std::min(tolerances_.level_tight, near.reach) && !at_wall;
   const bool on_level = flat || loose;
-  const bool sloped = surface == SurfaceClass::kSloped && !at_wall;
+  const bool sloped = tolerances_.slopes && surface == SurfaceClass::kSloped && !at_wall;
   if (on_level || sloped) {
     const std::int64_t found = levels_.faces().find(p);
     if (found >= 0) {

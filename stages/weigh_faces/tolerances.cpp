@@ -29,6 +29,9 @@ Tolerances resolve_tolerances(const WeighFacesParams& params, const CloudHeader&
   t.over_high = t.over_low + 0.08;
   t.core_margin = std::max(0.015, 3 * noise);
   t.top_share = params.top_share;
+  t.edge_bins = params.wall_bins == "edge";
+  t.correct_density = params.correct_density;
+  t.slopes = params.slopes;
   return t;
 }
 

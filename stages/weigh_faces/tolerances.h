@@ -20,7 +20,9 @@ struct Tolerances {
   double beside_low, beside_high;  ///< band beside a wall whose points tell its empty side
   double over_low, over_high;      ///< band above and below a level whose points tell its empty side
   double core_margin;              ///< level faces are judged this far inside their sides
-  double top_share;                ///< see WeighFacesParams
+  double top_share;                ///< see WeighFacesParams, as the two below
+  bool edge_bins;                  ///< wall_bins: edge
+  bool correct_density, slopes;
 };
 
 Tolerances resolve_tolerances(const WeighFacesParams& params, const CloudHeader& cloud);

@@ -102,7 +102,8 @@ WallRasters::Tables WallRasters::tables_of(const Raster& raster) const {
   const std::vector<float> density = local_density(points, area, area_table, columns, rows);
   std::vector<float> covered(size, 0.0F);
   for (i = 0; i < size; ++i) {
-    covered[i] = points[i] > 0 ? static_cast<float>(area[i] * occupancy_weight(density[i], area[i])) : 0.0F;
+    const double weight = tolerances_.correct_density ? occupancy_weight(density[i], area[i]) : 1;
+    covered[i] = points[i] > 0 ? static_cast<float>(area[i] * weight) : 0.0F;
   }
   return {std::move(area_table), AreaTable(covered, columns, rows), AreaTable(points, columns, rows)};
 }
@@ -121,6 +122,7 @@ Divisions::Range WallRasters::rows_of(std::size_t layer) const {
 double WallRasters::omega_of(Divisions::Range columns, std::size_t layer, const Tables& tables) const {
   constexpr double kTopNeeds = 1.0;  // [m] a layer at least this high may count by its top share
   const Divisions::Range rows = rows_of(layer);
+  if (tolerances_.edge_bins) return occupied_columns(columns, rows, tables);
   const auto share = [&](int first_row) {
     const double area = tables.area.bins(columns.begin, columns.end, first_row, rows.end);
     return area > 0 ? tables.covered.bins(columns.begin, columns.end, first_row, rows.end) / area : 0.0;
@@ -131,6 +133,15 @@ double WallRasters::omega_of(Divisions::Range columns, std::size_t layer, const 
     omega = std::max(omega, share(rows.end - top_rows));
   }
   return std::clamp(omega, 0.0, 1.0);
+}
+
+/// The share of the columns that hold a point at any height.
+double WallRasters::occupied_columns(Divisions::Range columns, Divisions::Range rows, const Tables& tables) {
+  int occupied = 0;
+  for (int c = columns.begin; c < columns.end; ++c) {
+    occupied += tables.points.bins(c, c + 1, rows.begin, rows.end) > 0 ? 1 : 0;
+  }
+  return static_cast<double>(occupied) / std::max(1, columns.end - columns.begin);
 }
 
 void WallRasters::weigh_coverage(FaceWeights& weights) const {

@@ -47,6 +47,7 @@ class WallRasters {
   Divisions::Range columns_of(std::size_t edge, const Raster& raster) const;
   Divisions::Range rows_of(std::size_t layer) const;
   double omega_of(Divisions::Range columns, std::size_t layer, const Tables& tables) const;
+  static double occupied_columns(Divisions::Range columns, Divisions::Range rows, const Tables& tables);
   double strip(const SparseCounts& counts, const Raster& raster, Divisions::Range columns,
                std::size_t level) const;
 

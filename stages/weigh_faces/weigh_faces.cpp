@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages/weigh_faces/weigh_faces.h"
 
+#include <algorithm>
+
 #include "stages/weigh_faces/continued_walls.h"
 #include "stages/weigh_faces/level_rasters.h"
 #include "stages/weigh_faces/line_grid.h"
@@ -11,9 +13,10 @@
 namespace roomcut::weigh_faces {
 
 struct FaceWeigher::State {
-  State(const CellComplex& c, const CloudHeader& cloud, const WeighFacesParams& params)
+  State(const CellComplex& c, const CloudHeader& cloud, const WeighFacesParams& p)
       : complex(c),
-        tolerances(resolve_tolerances(params, cloud)),
+        params(p),
+        tolerances(resolve_tolerances(p, cloud)),
         heights(c.levels),
         lines(c, std::max(tolerances.wall_alone, tolerances.beside_high), tolerances.azimuth),
         walls(c, tolerances),
@@ -21,6 +24,7 @@ struct FaceWeigher::State {
         inside(c.cells()) {}
 
   const CellComplex& complex;
+  WeighFacesParams params;
   Tolerances tolerances;
   LevelFinder heights;
   LineGrid lines;
@@ -28,6 +32,20 @@ struct FaceWeigher::State {
   LevelRasters levels;
   SparseCounts inside;
 };
+
+namespace {
+
+/// Both sides of every face alike.
+void forget_sides(FaceWeights& weights) {
+  const auto halve = [](const std::vector<float>& omega, std::vector<float>& a, std::vector<float>& b) {
+    std::transform(omega.begin(), omega.end(), a.begin(), [](float w) { return 0.5F * w; });
+    b = a;
+  };
+  halve(weights.wall_omega, weights.wall_left, weights.wall_right);
+  halve(weights.level_omega, weights.level_floor, weights.level_ceiling);
+}
+
+}  // namespace
 
 FaceWeigher::FaceWeigher(const CellComplex& complex, const CloudHeader& cloud, const WeighFacesParams& params)
     : state_(std::make_unique<State>(complex, cloud, params)) {}
@@ -51,8 +69,9 @@ FaceWeights FaceWeigher::weigh() const {
   state_->walls.weigh_coverage(weights);
   state_->levels.weigh(weights);
   state_->walls.weigh_sides(weights);
-  discount_seen_through(state_->complex, weights);
-  continue_walls(state_->complex, weights);
+  if (!state_->params.sides) forget_sides(weights);
+  if (state_->params.seen_through) discount_seen_through(state_->complex, weights);
+  if (state_->params.continue_walls) continue_walls(state_->complex, weights);
   weights.cell_points.resize(state_->complex.cells());
   for (std::size_t c = 0; c < weights.cell_points.size(); ++c) {
     weights.cell_points[c] = state_->inside.at(c);

@@ -13,6 +13,8 @@ import unittest
 
 import jsonschema
 
+import ablation
+import ablation_table
 import scenes
 import table
 
@@ -77,6 +79,51 @@ class Means(unittest.TestCase):
         self.assertNotIn("new", text)
 
 
+    def test_a_preset_stands_beside_the_defaults_over_the_scenes_of_both(self):
+        defaults = [row("a", iou=0.9), row("b", iou=0.8, merged=1), row("only", iou=0.1)]
+        text = table.beside([row("a", iou=0.6, missed=2), row("b", iou=0.5, merged=3), row("other")], defaults, "paper_2013").splitlines()
+        self.assertEqual(text[-1].split(), ["g", "2", "0.8500", "0.5500", "0", "2", "1", "3"])
+
+
+class Switches(unittest.TestCase):
+    """The variants of `make ablation`."""
+
+    def setUp(self):
+        self.preset = ablation.read_preset(ablation.PRESET)
+        self.variants = ablation.variants(self.preset)
+
+    def test_every_line_of_the_preset_differs_from_the_default(self):
+        defaults = ablation.read_preset(os.path.join(SOURCE, "pipeline.yaml"))
+        self.assertGreater(len(self.preset), 20)
+        for name, value in self.preset.items():
+            self.assertIn(name, defaults)
+            self.assertNotEqual(defaults[name], value, name)
+
+    def test_each_addition_is_switched_off_alone_and_all_of_them_together(self):
+        self.assertEqual(self.variants["graphcut.free_from"], {"graphcut.free_from": "1"})
+        self.assertEqual(self.variants["detect_lines.search"], {"detect_lines.search": "mean_shift", "detect_lines.min_support_m": "1.5"})
+        for value in ("detect_lines.min_support_m", "weigh_faces.tau_m"):
+            self.assertIn(value, self.preset)
+            self.assertNotIn(value, self.variants)
+        self.assertEqual((self.variants["default"], self.variants["all"]), ({}, self.preset))
+
+    def test_parameters_are_written_as_blocks(self):
+        text = ablation.config_text({"slice.drift": "false", "graphcut.free_from": "1", "slice.step_m": "0"})
+        self.assertEqual(text, "slice:\n  drift: false\n  step_m: 0\ngraphcut:\n  free_from: 1\n")
+
+    def test_the_table_says_what_a_switch_costs_and_a_failed_scene_misses_all_its_rooms(self):
+        chosen = [{"name": "a", "group": "g"}, {"name": "b", "group": "h"}]
+        good = {"iou": 0.9, "rooms": 4, "missed": 0, "merged": 1}
+        content = {"default": {"parameters": "", "scenes": {"a": good, "b": good}},
+                   "x.y": {"parameters": "x:\n  y: 0\n", "scenes": {"a": {**good, "iou": 0.88, "merged": 3}, "b": {"error": "N03"}}}}
+        text = ablation_table.markdown(chosen, content, ["default", "x.y", "not measured"]).splitlines()
+        self.assertEqual(text[2], "| **default** | 0.9000, 0 missed, 1 merged | 0.9000, 0 missed, 1 merged | 0.9000, 0 missed, 2 merged |")
+        self.assertEqual(text[3], "| `x: y: 0` | -20.0, +2 merged | -900.0, +4 missed, -1 merged, 1 failed | -460.0, +4 missed, +1 merged, 1 failed |")
+        del content["x.y"]["scenes"]["b"]
+        text = ablation_table.markdown(chosen, content, ["default", "x.y"]).splitlines()
+        self.assertEqual(text[3], "| `x: y: 0` | -20.0, +2 merged | – | – |")
+
+
 class Run(unittest.TestCase):
     def run_accuracy(self, folder, **variables):
         environment = {**os.environ, "ROOT": folder, "OUT": os.path.join(folder, "out.json"), **variables}
@@ -115,9 +162,40 @@ class Run(unittest.TestCase):
             self.assertGreater(empty, scores["explanation"]["empty_m3"])  # doors were cut
             self.assertAlmostEqual(scores["mesh"]["volume_m3"], empty, delta=1e-6 * empty)
 
+    def test_a_preset_runs_in_a_folder_of_its_own_and_stands_beside_the_defaults(self):
+        with tempfile.TemporaryDirectory() as folder:
+            default = self.run_accuracy(folder, ONLY="closed_house_1", OUT="")
+            self.assertEqual(default.returncode, 0, default.stderr)
+            paper = self.run_accuracy(folder, ONLY="closed_house_1", OUT="", PRESET="paper_2013")
+            self.assertEqual(paper.returncode, 0, paper.stderr)
+            self.assertIn("beside the defaults", paper.stdout)
+            ious = []
+            for name in ("accuracy.json", os.path.join("paper_2013", "accuracy.json")):
+                with open(os.path.join(folder, name), encoding="utf-8") as text:
+                    ious.append(json.load(text)["scenes"][0]["iou"])
+            self.assertNotEqual(*ious)
+            self.assertGreater(ious[1], 0.9)
+            self.assertFalse(os.path.exists(os.path.join(folder, "paper_2013", "closed_house_1", "scan.ply")))
+
+    def test_the_ablation_of_a_switch_is_measured_once_and_leaves_the_default_run_alone(self):
+        with tempfile.TemporaryDirectory() as folder:
+            command = [sys.executable, os.path.join(SOURCE, "tests", "accuracy", "ablation.py"), BUILD]
+            environment = {**os.environ, "ROOT": folder, "ONLY": "closed_house_1", "SWITCHES": "raycast.evidence ingest.drop_ghosts"}
+            done = subprocess.run(command, capture_output=True, text=True, env=environment, check=False)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("| `raycast: evidence: parity` |", done.stdout)
+            with open(os.path.join(folder, "ablation.json"), encoding="utf-8") as text:
+                result = {name: variant["scenes"]["closed_house_1"] for name, variant in json.load(text).items()}
+            self.assertLess(result["raycast.evidence"]["iou"], result["default"]["iou"])
+            self.assertEqual(result["ingest.drop_ghosts"], result["default"])
+            with open(os.path.join(folder, "closed_house_1", "params", "raycast.json"), encoding="utf-8") as text:
+                self.assertIn('"evidence":"combined"', text.read())
+            again = subprocess.run(command, capture_output=True, text=True, env={**environment, "PATH": "/nonexistent"}, check=False)
+            self.assertEqual(again.stdout, done.stdout)
+
     def test_wrong_words_and_files_are_usage_errors(self):
         with tempfile.TemporaryDirectory() as folder:
-            for variables in ({"ONLY": "nonsense"}, {"BASE": os.path.join(folder, "nowhere.json")}):
+            for variables in ({"ONLY": "nonsense"}, {"PRESET": "nonsense"}, {"PRESET": "paper_2013", "ONLY": "random_house_101*"}, {"BASE": os.path.join(folder, "nowhere.json")}):
                 done = self.run_accuracy(folder, **variables)
                 self.assertEqual(done.returncode, 2)
                 self.assertIn("error[U01]", done.stderr)

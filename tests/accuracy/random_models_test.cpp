@@ -98,13 +98,10 @@ std::vector<double> levels_of(const Building& building, double off_m, Draw& draw
 
 std::vector<float> truth_beta(const CellComplex& complex, const Building& building) {
   std::vector<float> beta(complex.cells(), 0.08F);
-  const std::size_t faces = complex.faces();
-  for (std::size_t cell = 0; faces > 0 && cell < complex.cells(); ++cell) {
-    const std::size_t layer = cell / faces;
-    const Vec2 p = complex.centroid(cell % faces);
-    const double z = 0.5 * (complex.levels[layer] + complex.levels[layer + 1]);
+  for (std::size_t cell = 0; cell < complex.cells(); ++cell) {
+    const Vec3 p = complex.centre(cell);
     for (const Prism& prism : building.prisms) {
-      if (z > prism.z0 && z < prism.z1 && contains(prism.polygon, p)) beta[cell] = 0.92F;
+      if (p.z() > prism.z0 && p.z() < prism.z1 && contains(prism.polygon, p.head<2>())) beta[cell] = 0.92F;
     }
   }
   return beta;
@@ -153,8 +150,7 @@ TEST_P(RandomModels, AreValidAndEncloseJustTheirEmptyCells) {
       EXPECT_TRUE(check.valid()) << describe_faults(check);
       double empty = 0;
       for (std::size_t cell = 0; cell < complex.cells(); ++cell) {
-        if (labels.label[cell] != 0)
-          empty += complex.area(cell % complex.faces()) * complex.height(cell / complex.faces());
+        if (is_empty(labels.label, cell)) empty += complex.volume(cell);
       }
       EXPECT_NEAR(check.volume_m3, empty, 1e-7 * empty);  // how much of it is rounding: extract checks
       ++models;

@@ -78,10 +78,10 @@ def stations_file(scene, truth_json, work):
     return path
 
 
-def config_file(scene, work):
-    """CONFIG of the pipeline: the parameters that the scene wants to differ, or none."""
+def config_file(scene, work, preset):
+    """CONFIG of the pipeline: the parameters that the scene wants to differ, or those of the preset, or none."""
     if "mu_m" not in scene:
-        return ""
+        return preset
     path = os.path.join(work, "parameters.yaml")
     write_if_changed(path, f"graphcut:\n  mu_m: {scene['mu_m']}\n")
     return path
@@ -131,15 +131,23 @@ def explained(scores, mesh, volume, openings):
     return {"bound": explanation["bound_iou"], **shares, "valid": mesh["valid"] and equal}
 
 
-def run_scene(source, build, scene, root):
-    """Makes what is not up to date, scores it, and returns the scene's row; `error` in it says why there are no figures."""
+def make_model(source, build, work, scan, stations, config):
+    run(["make", "--no-print-directory", "-C", source, "extract"], SCAN=scan, WORK=work, BUILD=build, JOBS="1", QUIET="1",
+        STATIONS=stations, CONFIG=config or "none")
+
+
+def run_scene(source, build, scene, root, preset="", scans=""):
+    """Makes what is not up to date, scores it, and returns the scene's row; `error` in it says why there are no figures.
+
+    `preset`: a file of parameters; `scans`: a root whose scans are taken, instead of `root`."""
     row = {"name": scene["name"], "group": scene["group"], "kind": scene["kind"]}
-    work = os.path.join(root, scene.get("work", scene["name"]))
-    os.makedirs(work, exist_ok=True)
+    folder = scene.get("work", scene["name"])
+    work, scan_folder = os.path.join(root, folder), os.path.join(scans or root, folder)
+    for path in (work, scan_folder):
+        os.makedirs(path, exist_ok=True)
     try:
-        scan, truth, truth_json = make_scan(build, scene, work)
-        run(["make", "--no-print-directory", "-C", source, "extract"], SCAN=scan, WORK=work, BUILD=build, JOBS="1", QUIET="1",
-            STATIONS=stations_file(scene, truth_json, work), CONFIG=config_file(scene, work))
+        scan, truth, truth_json = make_scan(build, scene, scan_folder)
+        make_model(source, build, work, scan, stations_file(scene, truth_json, work), config_file(scene, work, preset))
         openings = read_json(os.path.join(work, "summary.json"))["openings"]
         row.update(row_of(evaluate(build, scene, work, truth, truth_json), read_json(truth_json), openings))
         row["cpu_s"] = round(cpu_seconds(work), 3)

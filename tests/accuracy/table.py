@@ -77,6 +77,20 @@ def cause_cell(group, name):
     return f"{100 * group['lost'][name]:>7.3f} +{100 * group['extra'][name]:>7.3f}"
 
 
+def beside(rows, default_rows, name):
+    """The means of a preset beside those of the defaults, over the scenes that both have."""
+    common = {row["name"] for row in rows} & {row["name"] for row in default_rows}
+    ours, theirs = ({group["name"]: group for group in group_rows([row for row in some if row["name"] in common])}
+                    for some in (default_rows, rows))
+    width = max([len("beside the defaults"), *map(len, ours)])
+    lines = ["", f"{'beside the defaults':<{width}} scenes  IoU default {name:>14}   missed default {name:>14}   merged default {name:>14}"]
+    for group, own in ours.items():
+        other = theirs[group]
+        lines.append(f"{group:<{width}} {own['scenes']:>6} {own['iou']:>12.4f} {other['iou']:>14.4f} "
+                     f"{own['missed']:>16} {other['missed']:>14} {own['merged']:>16} {other['merged']:>14}")
+    return "\n".join(lines)
+
+
 def changes(rows, groups, base):
     """Lines that name what differs from an earlier result, for groups over the scenes that both have, and for each scene."""
     before = {row["name"]: row for row in base["scenes"]}

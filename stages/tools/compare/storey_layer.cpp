@@ -15,16 +15,15 @@ constexpr Colour kWall{20, 20, 20}, kOpening{0, 158, 115};
 }  // namespace
 
 std::vector<Vec2> StoreyLayer::corners(std::size_t face) const {
-  const CellComplex& complex = run.plan->complex;
   std::vector<Vec2> out;
-  for (auto i = complex.face_offset[face]; i < complex.face_offset[face + 1]; ++i) {
-    out.emplace_back(placed(complex.vertices[complex.face_vertex[i]]));
+  for (const Vec2& corner : run.plan->complex.corners(face)) {
+    out.emplace_back(placed(corner));
   }
   return out;
 }
 
 bool StoreyLayer::empty(std::int32_t face) const {
-  return face >= 0 && run.plan->labels.label[run.plan->complex.cell(face, layer)] != 0;
+  return is_empty(run.plan->complex, run.plan->labels.label, face, layer);
 }
 
 bool StoreyLayer::unobserved(std::size_t face) const {
@@ -38,11 +37,11 @@ std::optional<StoreyLayer> layer_of(const RunFacts& run, const SpaceFacts* store
   const auto& levels = run.plan->complex.levels;
   const ScanCoordinates own(run.frame);
   const double z = own.to_local(Vec3(storey->centre.x(), storey->centre.y(), storey->floor_z)).z() + kCut_m;
-  const auto above = std::upper_bound(levels.begin(), levels.end(), z);
-  if (above == levels.begin() || above == levels.end()) {
+  const std::int32_t at = run.plan->complex.layer_at(z);
+  if (at < 0) {
     return std::nullopt;
   }
-  const auto layer = static_cast<std::size_t>(above - levels.begin()) - 1;
+  const auto layer = static_cast<std::size_t>(at);
   return StoreyLayer{run, layer, own, ScanCoordinates(frame), levels[layer], levels[layer + 1]};
 }
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <functional>
 
+#include "common/cells/face_locator.h"
 #include "common/errors/codes.h"
-#include "stages/tools/evaluate/face_locator.h"
 
 namespace roomcut::evaluate {
 
@@ -68,14 +68,8 @@ std::function<bool(const Vec3&)> opening_test(const LabelledCells* cells) {
     return [](const Vec3&) { return false; };
   }
   return [cells, locator = FaceLocator(cells->complex)](const Vec3& p) {
-    const std::vector<double>& levels = cells->complex.levels;
-    const std::int32_t face = locator.face_at(p.x(), p.y());
-    const auto above = std::upper_bound(levels.begin(), levels.end(), p.z());
-    if (face < 0 || above == levels.begin() || above == levels.end()) {
-      return false;
-    }
-    const auto layer = static_cast<std::size_t>(above - levels.begin()) - 1;
-    return cells->label[cells->complex.cell(static_cast<std::size_t>(face), layer)] == 0;
+    const std::int64_t cell = locator.cell_at(p);
+    return cell >= 0 && !is_empty(cells->label, cell);
   };
 }
 

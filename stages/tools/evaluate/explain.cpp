@@ -4,13 +4,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
+#include <limits>
 #include <tuple>
 #include <utility>
 
+#include "common/cells/face_locator.h"
 #include "common/random/counter_random.h"
-#include "stages/tools/evaluate/face_locator.h"
 #include "stages/tools/evaluate/lost_walls.h"
 
 namespace roomcut::evaluate {
@@ -44,6 +44,22 @@ void complement(const std::vector<Interval>& parts, double lo, double hi, std::v
   if (hi > from) {
     out.push_back({from, hi});
   }
+}
+
+/// Distance in the plan from p to the nearest edge of a face that lies on a wall line; infinite without one.
+double distance_to_lines(const CellComplex& complex, std::int32_t face, const Vec2& p) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const std::int32_t side : complex.edges_of(static_cast<std::size_t>(face))) {
+    const CellComplex::Edge& edge = complex.edges[static_cast<std::size_t>(side)];
+    if (edge.line < 0) {
+      continue;
+    }
+    const Vec2& a = complex.vertices[static_cast<std::size_t>(edge.v0)];
+    const Vec2 along = complex.vertices[static_cast<std::size_t>(edge.v1)] - a;
+    const double t = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    nearest = std::min(nearest, (p - a - t * along).norm());
+  }
+  return nearest;
 }
 
 struct RoomPart {
@@ -126,7 +142,7 @@ void Comparison::column_at(std::int64_t ix, std::int64_t iy, Column& column) con
   const double jy = random_unit(seed_, static_cast<std::uint64_t>(iy), counter + 1);
   column.x = lo_.x() + (static_cast<double>(ix) + jx) * spacing_;
   column.y = lo_.y() + (static_cast<double>(iy) + jy) * spacing_;
-  column.face = locator_.face_at(column.x, column.y);
+  column.face = locator_.face_at({column.x, column.y});
   input_.truth.crossings(column.x, column.y, column.crossings);
   enclosed(column.crossings, -1, column.parts);
   std::vector<Crossing> crossings;
@@ -172,7 +188,7 @@ double Comparison::iou(const std::vector<std::uint8_t>& label) const {
   double common = 0;
   double extra = 0;
   for (std::size_t cell = 0; cell < label.size(); ++cell) {
-    if (label[cell] != 0) {
+    if (is_empty(label, cell)) {
       common += cell_truth_m3_[cell];
       extra += cell_m3_[cell] - cell_truth_m3_[cell];
     }
@@ -228,7 +244,7 @@ void Comparison::judge_cell(const Column& column, std::size_t layer, const std::
   const std::size_t cell = complex_.cell(static_cast<std::size_t>(column.face), layer);
   const double lo = complex_.levels[layer];
   const double hi = complex_.levels[layer + 1];
-  const bool empty = input_.label[cell] != 0;
+  const bool empty = is_empty(input_.label, cell);
   std::vector<Interval> inside;
   clip(column.parts, lo, hi, inside);
   std::vector<Interval> wrong = inside;
@@ -344,11 +360,9 @@ Explanation Comparison::run() {
   Explanation out;
   out.bound_iou = iou(truth_label_);
   out.labels_iou = iou(input_.label);
-  const std::size_t faces = complex_.faces();
-  assert(faces > 0);
   for (std::size_t cell = 0; cell < complex_.cells(); ++cell) {
-    if (input_.label[cell] != 0) {
-      out.empty_m3 += complex_.area(cell % faces) * complex_.height(cell / faces);
+    if (is_empty(input_.label, cell)) {
+      out.empty_m3 += complex_.volume(cell);
     }
   }
   const double area = spacing_ * spacing_;

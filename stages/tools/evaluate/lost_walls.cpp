@@ -27,20 +27,17 @@ class LostWallBuilder {
   void add(const ThinWallScores::LostPlace& place) {
     wall_.area_m2 += place.area_m2;
     level_m2_ += place.wall ? 0 : place.area_m2;
-    const CellComplex& complex = input_.complex;
-    const std::int32_t face = locator_.face_at(place.middle.x(), place.middle.y());
-    const auto above = std::upper_bound(complex.levels.begin(), complex.levels.end(), place.middle.z());
-    if (face < 0 || above == complex.levels.begin() || above == complex.levels.end()) {
+    const std::int64_t at = locator_.cell_at(place.middle);
+    if (at < 0) {
       return;
     }
-    const auto layer = static_cast<std::size_t>(above - complex.levels.begin()) - 1;
-    const std::size_t cell = complex.cell(static_cast<std::size_t>(face), layer);
-    if (truth_label_[cell] != 0) {
+    const auto cell = static_cast<std::size_t>(at);
+    if (is_empty(truth_label_, cell)) {
       wall_.no_cell_m2 += place.area_m2;
       return;
     }
     cells_.push_back(cell);
-    name_lines(static_cast<std::size_t>(face), place);
+    name_lines(input_.complex.face_of(cell), place);
   }
 
   Explanation::LostWall finish() {
@@ -60,8 +57,8 @@ class LostWallBuilder {
   void name_lines(std::size_t face, const ThinWallScores::LostPlace& place) {
     const CellComplex& complex = input_.complex;
     std::vector<std::string> ids;
-    for (std::int64_t i = complex.face_offset[face]; i < complex.face_offset[face + 1]; ++i) {
-      const CellComplex::Edge& edge = complex.edges[static_cast<std::size_t>(complex.face_edge[i])];
+    for (const std::int32_t side : complex.edges_of(face)) {
+      const CellComplex::Edge& edge = complex.edges[static_cast<std::size_t>(side)];
       const Vec2 along = (complex.vertices[static_cast<std::size_t>(edge.v1)] -
                           complex.vertices[static_cast<std::size_t>(edge.v0)])
                              .normalized();
@@ -92,9 +89,9 @@ Explanation::Evidence evidence_of(const CellComplex& complex, const std::vector<
   Explanation::Evidence out;
   out.cells = cells.size();
   for (const std::size_t cell : cells) {
-    const double volume = complex.area(cell % complex.faces()) * complex.height(cell / complex.faces());
+    const double volume = complex.volume(cell);
     out.volume_m3 += volume;
-    out.empty_m3 += label[cell] != 0 ? volume : 0;
+    out.empty_m3 += is_empty(label, cell) ? volume : 0;
     if (terms != nullptr) {
       out.evidence_m3 += terms->d_solid[cell] - terms->d_empty[cell];
       out.beta += volume * static_cast<double>(terms->beta[cell]);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "common/cells/face_locator.h"
 #include "stages/tools/evaluate/explain.h"
-#include "stages/tools/evaluate/face_locator.h"
 
 namespace roomcut::evaluate {
 

@@ -23,7 +23,7 @@ ThinPlace inspect(const SurfaceSample& sample, const MeshTree& tree, const RoomF
   const Vec3& normal = tree.unit_normal(sample.triangle);
   constexpr double kOwnSurface = 1e-6;
   constexpr double kFacesAway = -0.7;
-  const auto hit = tree.first_on_segment(sample.point, thickest_m * normal, kOwnSurface);
+  const auto hit = tree.first_on_ray(sample.point, normal, kOwnSurface, thickest_m);
   if (hit.triangle < 0 || tree.unit_normal(hit.triangle).dot(normal) > kFacesAway) {
     return place;
   }

@@ -23,7 +23,7 @@ std::string cell_title(const DataTerms& terms, const Labels* labels, std::size_t
   std::string title = text;
   if (labels != nullptr) {
     std::snprintf(text, sizeof text, "; %s%s, flipping it would cost %.2f m³",
-                  labels->label[cell] != 0 ? "empty" : "solid",
+                  is_empty(labels->label, cell) ? "empty" : "solid",
                   labels->unobserved[cell] != 0 ? " (unobserved)" : "", labels->margin_m3[cell]);
     title += text;
   }
@@ -53,7 +53,7 @@ Picture draw_partition(const std::string& stage, const CellComplex& complex) {
 Picture draw_weights(const std::string& stage, const CellComplex& complex, const FaceWeights& weights,
                      std::size_t layer) {
   Svg svg = plan_of(complex);
-  fill_cells(svg, complex, layer, [&](std::size_t /*face*/, std::size_t cell) {
+  fill_cells(svg, complex, layer, [&](std::size_t cell) {
     return CellLook{kRoom, "cell " + std::to_string(cell) + ": " + std::to_string(weights.cell_points[cell]) +
                                " points inside"};
   });
@@ -73,7 +73,7 @@ Picture draw_weights(const std::string& stage, const CellComplex& complex, const
 Picture draw_evidence(const std::string& stage, const CellComplex& complex, const DataTerms& terms,
                       std::size_t layer) {
   Svg svg = plan_of(complex);
-  fill_cells(svg, complex, layer, [&](std::size_t /*face*/, std::size_t cell) {
+  fill_cells(svg, complex, layer, [&](std::size_t cell) {
     return CellLook{diverging_colour(1 - 2 * static_cast<double>(terms.beta[cell])),
                     cell_title(terms, nullptr, cell)};
   });
@@ -85,11 +85,11 @@ Picture draw_evidence(const std::string& stage, const CellComplex& complex, cons
 Picture draw_cells(const std::string& stage, const CellComplex& complex, const DataTerms& terms,
                    const Labels& labels, std::size_t layer) {
   Svg svg = plan_of(complex);
-  fill_cells(svg, complex, layer, [&](std::size_t face, std::size_t cell) {
+  fill_cells(svg, complex, layer, [&](std::size_t cell) {
     // The margin per volume says how sure the decision is, whatever the cell's size.
-    const double volume = complex.area(face) * complex.height(layer);
+    const double volume = complex.volume(cell);
     const double sure = std::clamp(labels.margin_m3[cell] / std::max(volume, 1e-9), 0.0, 1.0);
-    const bool empty = labels.label[cell] != 0;
+    const bool empty = is_empty(labels.label, cell);
     const Colour fill = !empty                         ? kSolid
                         : labels.unobserved[cell] != 0 ? kUnobserved
                                                        : diverging_colour(-0.25 - 0.6 * sure);
@@ -105,8 +105,8 @@ Picture draw_cells(const std::string& stage, const CellComplex& complex, const D
 Picture draw_openings(const std::string& stage, const CellComplex& complex, const Labels& labels,
                       const std::vector<Opening>& openings, std::size_t layer) {
   Svg svg = plan_of(complex);
-  fill_cells(svg, complex, layer, [&](std::size_t /*face*/, std::size_t cell) {
-    return CellLook{labels.label[cell] != 0 ? diverging_colour(-0.25) : kSolid, ""};
+  fill_cells(svg, complex, layer, [&](std::size_t cell) {
+    return CellLook{is_empty(labels.label, cell) ? diverging_colour(-0.25) : kSolid, ""};
   });
   draw_edges(svg, complex, &labels, layer);
   for (const Opening& opening : openings) {

@@ -16,7 +16,7 @@ std::vector<std::size_t> shown_layers(const CellComplex& complex, const Labels* 
   for (std::size_t k = 0; k < complex.layers(); ++k) {
     bool any = labels == nullptr;
     for (std::size_t f = 0; !any && f < complex.faces(); ++f) {
-      any = labels->label[complex.cell(f, k)] != 0;
+      any = is_empty(labels->label, complex.cell(f, k));
     }
     if (any && complex.height(k) > kThinLayer_m) {
       layers.push_back(k);

@@ -26,21 +26,17 @@ Svg plan_of(const CellComplex& complex) {
 }
 
 void fill_cells(Svg& svg, const CellComplex& complex, std::size_t layer,
-                const std::function<CellLook(std::size_t face, std::size_t cell)>& look) {
-  std::vector<Vec2> corners;
+                const std::function<CellLook(std::size_t cell)>& look) {
   for (std::size_t f = 0; f < complex.faces(); ++f) {
-    corners.clear();
-    for (auto i = complex.face_offset[f]; i < complex.face_offset[f + 1]; ++i) {
-      corners.push_back(complex.vertices[complex.face_vertex[i]]);
-    }
-    const CellLook cell = look(f, complex.cell(f, layer));
-    svg.polygon(corners, cell.fill, 1, cell.title);
+    const FaceCorners corners = complex.corners(f);
+    const CellLook cell = look(complex.cell(f, layer));
+    svg.polygon(std::vector<Vec2>(corners.begin(), corners.end()), cell.fill, 1, cell.title);
   }
 }
 
 void draw_edges(Svg& svg, const CellComplex& complex, const Labels* labels, std::size_t layer) {
   const auto empty = [&](std::int32_t face) {
-    return labels != nullptr && face >= 0 && labels->label[complex.cell(face, layer)] != 0;
+    return labels != nullptr && is_empty(complex, labels->label, face, layer);
   };
   for (const CellComplex::Edge& edge : complex.edges) {
     const bool wall = empty(edge.left) != empty(edge.right);

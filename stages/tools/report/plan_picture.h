@@ -21,7 +21,7 @@ struct CellLook {
 
 /// Fills every face of a layer.
 void fill_cells(Svg& svg, const CellComplex& complex, std::size_t layer,
-                const std::function<CellLook(std::size_t face, std::size_t cell)>& look);
+                const std::function<CellLook(std::size_t cell)>& look);
 
 /// Draws every edge: thick where a wall of the model stands, thin elsewhere. Without labels all are thin.
 void draw_edges(Svg& svg, const CellComplex& complex, const Labels* labels, std::size_t layer);

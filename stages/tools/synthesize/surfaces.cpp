@@ -47,6 +47,16 @@ const std::vector<std::int32_t>& PlanIndex::at(const Vec2& p) const {
   return cells_[static_cast<std::size_t>(y) * nx_ + x];
 }
 
+TriangleMesh triangle_mesh(const std::vector<SurfaceTriangle>& triangles) {
+  TriangleMesh mesh;
+  for (const SurfaceTriangle& t : triangles) {
+    const auto first = static_cast<std::int32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), {t.a, t.a + t.u, t.a + t.v});
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  return mesh;
+}
+
 Surfaces::Surfaces(const Scene& scene, const Building& building, const TriangleMesh& truth)
     : building_(building) {
   for (const auto& t : truth.triangles) {

@@ -36,6 +36,9 @@ struct SurfaceTriangle {
   PointOrigin kind;
 };
 
+/// The same triangles in the same order; no two share a vertex.
+TriangleMesh triangle_mesh(const std::vector<SurfaceTriangle>& triangles);
+
 /// All surfaces that give points, and what hides them.
 class Surfaces {
  public:

@@ -15,6 +15,7 @@ namespace {
 constexpr std::uint64_t kStream = 0x74726970;
 constexpr std::uint64_t kBlockRays = 1 << 16;
 constexpr double kTrialStep = 0.02;  // of the pattern that estimates how many beams return [rad]
+constexpr double kNearest = 1e-6;    // surfaces nearer to a scanner are not seen [m]
 constexpr double kJitter = 0.5;      // beams leave within this share of a step [steps]
 constexpr double kPi = std::numbers::pi;
 constexpr double kAround = 0.5;  // outliers lie in the bounding box enlarged by this [m]
@@ -25,7 +26,7 @@ TripodSource::TripodSource(const Scene& scene, const Building& building, const S
     : scene_(scene),
       building_(building),
       surfaces_(surfaces),
-      bvh_(surfaces.triangles()),
+      tree_(triangle_mesh(surfaces.triangles())),
       holes_(scene, building, surfaces) {
   if (building.stations.empty()) {
     throw StageError(errors::kSceneInvalid, scene.name, "there is no scanner position",
@@ -99,7 +100,7 @@ std::optional<Vec3> TripodSource::measure(const Vec3& station, double column, do
       kPi / 2 - span + span * (row + 0.5 + kJitter * (draws.unit() - 0.5)) / static_cast<double>(rows_);
   const Vec3 direction(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
                        std::sin(elevation));
-  const Bvh::Hit hit = bvh_.first_hit(station, direction, scene_.sampling.max_range);
+  const MeshTree::Hit hit = tree_.first_on_ray(station, direction, kNearest, scene_.sampling.max_range);
   if (hit.triangle < 0) return std::nullopt;
   if (draws.unit() < scene_.outliers) {
     const Vec3 size = building_.hi - building_.lo + Vec3::Constant(2 * kAround);

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "stages/tools/synthesize/bvh.h"
+#include "common/mesh/mesh_tree.h"
 #include "stages/tools/synthesize/holes.h"
 #include "stages/tools/synthesize/random_draws.h"
 #include "stages/tools/synthesize/sample.h"
@@ -33,7 +33,7 @@ class TripodSource : public PointSource {
   const Scene& scene_;
   const Building& building_;
   const Surfaces& surfaces_;
-  Bvh bvh_;
+  MeshTree tree_;
   Holes holes_;
   double step_ = 0;
   std::uint64_t columns_ = 0, rows_ = 0, blocks_per_station_ = 0, columns_per_block_ = 0, expected_ = 0;

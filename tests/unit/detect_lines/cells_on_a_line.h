@@ -19,6 +19,7 @@ inline void add_cells(WallCells& cells, const Line2& line, double t0, double t1,
     cells.weight_m.push_back(0.04F);
     cells.area_m2.push_back(0.02F);
     cells.theta.push_back(static_cast<float>(line.theta));
+    cells.offset_m.push_back(0);
     cells.boundary.push_back(1);
     cells.slice.push_back(slice);
     cells.line.push_back(-1);

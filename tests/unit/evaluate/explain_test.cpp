@@ -77,12 +77,8 @@ CellComplex grid(const Values& xs, const Values& ys, const Values& zs) {
 /// Cells whose middle lies in one of the boxes are empty.
 LabelledCells labelled(const CellComplex& complex, const std::vector<std::array<Vec3, 2>>& empty) {
   LabelledCells cells{complex, std::vector<std::uint8_t>(complex.cells(), 0), std::nullopt, {}};
-  const std::size_t faces = complex.faces();
-  assert(faces > 0);
   for (std::size_t cell = 0; cell < complex.cells(); ++cell) {
-    const std::size_t layer = cell / faces;
-    const Vec2 middle = complex.centroid(cell % faces);
-    const Vec3 p(middle.x(), middle.y(), 0.5 * (complex.levels[layer] + complex.levels[layer + 1]));
+    const Vec3 p = complex.centre(cell);
     for (const auto& [lo, hi] : empty) {
       if ((p.array() > lo.array()).all() && (p.array() < hi.array()).all()) cells.label[cell] = 1;
     }
@@ -153,13 +149,12 @@ TEST(Explain, EveryCellSaysHowMuchOfItIsEmptyInTheTruthWhateverTheLabelsSay) {
     ASSERT_EQ(e.cell_m3.size(), complex.cells());
     ASSERT_EQ(e.cell_truth_m3.size(), complex.cells());
     for (std::size_t cell = 0; cell < complex.cells(); ++cell) {
-      const std::size_t face = cell % complex.faces();
-      const std::size_t layer = cell / complex.faces();
-      EXPECT_NEAR(e.cell_m3[cell] / (complex.area(face) * complex.height(layer)), 1, 0.03);
-      const Vec2 middle = complex.centroid(face);
+      EXPECT_NEAR(e.cell_m3[cell] / complex.volume(cell), 1, 0.03);
+      const Vec3 middle = complex.centre(cell);
       const double along = middle.y() < 1 || middle.y() > 3 || middle.x() > 4 ? 0 : middle.x() < 2 ? 0.5 : 1;
-      EXPECT_NEAR(e.cell_truth_m3[cell] / e.cell_m3[cell], along * (layer == 0 ? 1 : 0.5), 0.02)
-          << middle.transpose() << " layer " << layer;
+      EXPECT_NEAR(e.cell_truth_m3[cell] / e.cell_m3[cell], along * (complex.layer_of(cell) == 0 ? 1 : 0.5),
+                  0.02)
+          << middle.transpose();
     }
     EXPECT_NEAR(std::accumulate(e.cell_truth_m3.begin(), e.cell_truth_m3.end(), 0.0), 15, 0.15);
   }
@@ -170,7 +165,7 @@ TEST(Explain, ACellThatNoColumnMeetsCountsNowhere) {
   const Explanation e = explained(kRoom, kRoom, labelled(complex, {kRoomBox}));
   double met = 0;
   for (std::size_t cell = 0; cell < complex.cells(); ++cell) {
-    const Vec2 middle = complex.centroid(cell % complex.faces());
+    const Vec3 middle = complex.centre(cell);
     if (middle.x() > 4 && middle.x() < 4.000001) {
       met += e.cell_m3[cell];
       EXPECT_EQ(e.cell_truth_m3[cell], 0);

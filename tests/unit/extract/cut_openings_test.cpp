@@ -115,7 +115,7 @@ TEST(CutOpenings, APartThatTheCutHadEmptiedIsClosedAboveTheHead) {
       const Vec2 p = rooms.complex.centroid(f);
       const double z = 0.5 * (rooms.complex.levels[k] + rooms.complex.levels[k + 1]);
       if (p.x() > 4 && p.x() < 4.2 && p.y() > 2.2 && p.y() < 3 && z > 0 && z < 2.5) {
-        rooms.labels.label[rooms.complex.cell(f, k)] = static_cast<std::uint8_t>(Label::kEmpty);
+        rooms.labels.label[rooms.complex.cell(f, k)] = Label::kEmpty;
       }
     }
   }

@@ -101,7 +101,7 @@ TEST(Extract, VerticesInTheMiddleOfStraightSidesDisappear) {
   // One room whose plan face has mid-edge vertices from its neighbours.
   const CellComplex complex = grid_complex({0, 1, 2, 3}, {0, 1, 2, 3}, {0, 1, 2, 3}, 0.7,
                                            [](int i, int j) { return i == 0 && j == 1; });
-  ASSERT_EQ(complex.face_offset[4] - complex.face_offset[3], 6);  // the joined face: six corners
+  ASSERT_EQ(complex.corners(3).size(), 6U);  // the joined face: six corners
   const Model model = extract(complex, label_where(complex, [&](const Vec2& p, double z) {
                                 return z > 1 && z < 2 && (p - complex.centroid(3)).norm() < 1e-6;
                               }));

@@ -34,7 +34,7 @@ TEST(Graphcut, OneCubeIsEmptyInsideAndSolidOutside) {
   weights.level_omega.assign(weights.level_omega.size(), 0.285F);
   const Graphcut result = graphcut(complex, weights, terms_of(complex, beta), {});
   EXPECT_EQ(result.empty_cells, 1);
-  EXPECT_EQ(result.labels.label[middle_of(complex)], static_cast<std::uint8_t>(Label::kEmpty));
+  EXPECT_EQ(result.labels.label[middle_of(complex)], Label::kEmpty);
   EXPECT_NEAR(result.empty_m3, 1.0, 1e-12);
   EXPECT_NEAR(result.labels.data_m3, 27 * 0.01, 1e-6);
   EXPECT_NEAR(result.labels.boundary_m3, 6 * 0.3 * 0.05, 1e-6);
@@ -89,9 +89,10 @@ TEST(Graphcut, MoreWeightOnTheSurfaceNeverMakesItLarger) {
   const CellComplex complex = random_complex(8, 20, 3);
   double last = 1e300;
   for (const double mu : {0.01, 0.03, 0.1, 0.2}) {
-    const EnergyTerms unit = energy_terms(complex, random_weights(complex, 8), random_terms(complex, 8), 1.0);
-    const Cut cut =
-        minimum_cut(complex, energy_terms(complex, random_weights(complex, 8), random_terms(complex, 8), mu));
+    const EnergyTerms unit =
+        energy_terms(complex, random_weights(complex, 8), random_terms(complex, 8), {1.0});
+    const Cut cut = minimum_cut(
+        complex, energy_terms(complex, random_weights(complex, 8), random_terms(complex, 8), {mu}));
     const double surface = energy_of(complex, unit, cut.label).boundary_m3;
     EXPECT_LE(surface, last + 1e-6);
     last = surface;

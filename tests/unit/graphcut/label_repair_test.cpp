@@ -19,7 +19,7 @@ TEST(LabelRepair, MakesAnyLabellingManifold) {
         random_complex(seed % 100, 6 + static_cast<int>(seed % 20), 1 + static_cast<int>(seed % 4));
     const ManifoldCheck check(complex);
     const EnergyTerms terms =
-        energy_terms(complex, random_weights(complex, seed), random_terms(complex, seed), 0.3);
+        energy_terms(complex, random_weights(complex, seed), random_terms(complex, seed), {0.3});
     const std::vector<std::uint8_t> label =
         random_labels(complex, seed, 0.1 + 0.2 * static_cast<double>(seed % 5));
     const Repair repair = repair_labels(check, terms, label);
@@ -36,7 +36,8 @@ TEST(LabelRepair, MakesAnyLabellingManifold) {
 
 TEST(LabelRepair, LeavesAManifoldLabellingAlone) {
   const CellComplex complex = grid_complex(5, 5, 3);
-  const EnergyTerms terms = energy_terms(complex, random_weights(complex, 1), random_terms(complex, 1), 0.3);
+  const EnergyTerms terms =
+      energy_terms(complex, random_weights(complex, 1), random_terms(complex, 1), {0.3});
   std::vector<std::uint8_t> label(complex.cells(), 0);
   label[complex.cell(12, 1)] = 1;
   const Repair repair = repair_labels(ManifoldCheck(complex), terms, label);
@@ -55,7 +56,7 @@ TEST(LabelRepair, TakesTheCheapestWayOutOfADiagonal) {
   }
   ASSERT_EQ(around.size(), 4U);
   const auto diagonal = [&](std::size_t i) {
-    const Vec2 c = complex.centroid(around[i] % complex.faces()) - Vec2(2, 2);
+    const Vec2 c = complex.centroid(complex.face_of(around[i])) - Vec2(2, 2);
     return c.x() * c.y() > 0;
   };
   std::vector<std::uint8_t> label(complex.cells(), 0);
@@ -68,7 +69,7 @@ TEST(LabelRepair, TakesTheCheapestWayOutOfADiagonal) {
       beta[c] = label[c] != 0 ? 0.9F : 0.1F;
     }
     beta[around[cheap]] = 0.5F;
-    const EnergyTerms terms = energy_terms(complex, no_weights(complex), terms_of(complex, beta), 0.001);
+    const EnergyTerms terms = energy_terms(complex, no_weights(complex), terms_of(complex, beta), {0.001});
     const Repair repair = repair_labels(ManifoldCheck(complex), terms, label);
     EXPECT_EQ(repair.flips, 1);
     EXPECT_NE(repair.label[around[cheap]], label[around[cheap]]);
@@ -79,7 +80,7 @@ TEST(LabelRepair, OfAnOptimalCutNeverLowersTheEnergy) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     const CellComplex complex = random_complex(seed, 12, 3);
     const EnergyTerms terms =
-        energy_terms(complex, random_weights(complex, seed), random_terms(complex, seed), 0.1);
+        energy_terms(complex, random_weights(complex, seed), random_terms(complex, seed), {0.1});
     EXPECT_GE(repair_labels(ManifoldCheck(complex), terms, minimum_cut(complex, terms).label).added_m3, 0);
   }
 }

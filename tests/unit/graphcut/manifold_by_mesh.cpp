@@ -15,13 +15,12 @@ using Segment = std::pair<Vertex, Vertex>;
 std::vector<Vertex> polygon_of(const CellComplex& complex, const Interface& face) {
   std::vector<Vertex> polygon;
   if (face.wall) {
-    const CellComplex::Edge& edge = complex.edges[face.index % complex.edges.size()];
-    const int k = static_cast<int>(face.index / complex.edges.size());
+    const CellComplex::Edge& edge = complex.edges[complex.edge_of_wall(face.index)];
+    const int k = static_cast<int>(complex.layer_of_wall(face.index));
     polygon = {{k, edge.v0}, {k, edge.v1}, {k + 1, edge.v1}, {k + 1, edge.v0}};
   } else {
-    const std::size_t f = face.index % complex.faces();
-    for (auto i = complex.face_offset[f]; i < complex.face_offset[f + 1]; ++i) {
-      polygon.emplace_back(static_cast<int>(face.index / complex.faces()), complex.face_vertex[i]);
+    for (const std::int32_t vertex : complex.vertices_of(complex.face_of_level(face.index))) {
+      polygon.emplace_back(static_cast<int>(complex.level_of(face.index)), vertex);
     }
   }
   return polygon;

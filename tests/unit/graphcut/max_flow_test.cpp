@@ -42,7 +42,7 @@ TEST(MaxFlow, FindsTheLeastEnergyOfAllLabellings) {
     }
     const double mu = 0.02 * static_cast<double>(1 + seed % 7);
     const EnergyTerms terms =
-        energy_terms(complex, random_weights(complex, seed), random_terms(complex, seed), mu);
+        energy_terms(complex, random_weights(complex, seed), random_terms(complex, seed), {mu});
     const Cut cut = minimum_cut(complex, terms);
     const Best best = by_trying_all(complex, terms);
     EXPECT_EQ(cut.flow_m3, best.energy);
@@ -60,13 +60,14 @@ TEST(MaxFlow, OfEqualLabellingsTakesTheOneWithFewestEmptyCells) {
   FaceWeights covered = no_weights(complex);
   covered.wall_omega.assign(covered.wall_omega.size(), 1.0F);
   covered.level_omega.assign(covered.level_omega.size(), 1.0F);
-  const Cut cut = minimum_cut(complex, energy_terms(complex, covered, undecided, 0.3));
+  const Cut cut = minimum_cut(complex, energy_terms(complex, covered, undecided, {0.3}));
   EXPECT_EQ(std::count(cut.label.begin(), cut.label.end(), 1), 0);
 }
 
 TEST(MaxFlow, FlowIsTheEnergyOnLargerComplexesToo) {
   const CellComplex complex = random_complex(3, 60, 6);
-  const EnergyTerms terms = energy_terms(complex, random_weights(complex, 3), random_terms(complex, 3), 0.1);
+  const EnergyTerms terms =
+      energy_terms(complex, random_weights(complex, 3), random_terms(complex, 3), {0.1});
   const Cut cut = minimum_cut(complex, terms);
   EXPECT_EQ(cut.flow_m3, energy_of(complex, terms, cut.label).total_m3());
 }

@@ -78,7 +78,7 @@ DataTerms terms_of(const CellComplex& complex, const std::vector<float>& beta) {
   terms.beta = beta;
   terms.observed.assign(complex.cells(), 1.0F);
   for (std::size_t c = 0; c < complex.cells(); ++c) {
-    const double volume = complex.area(c % complex.faces()) * complex.height(c / complex.faces());
+    const double volume = complex.volume(c);
     terms.d_empty[c] = volume * (1 - beta[c]);
     terms.d_solid[c] = volume * beta[c];
   }

@@ -52,6 +52,18 @@ TEST(WithoutGhosts, keeps_sparse_cells_beside_the_building) {
   EXPECT_EQ(kept_points(cells), 320'010U);
 }
 
+TEST(AllCells, keeps_ghosts_too) {
+  std::vector<CellCount> cells = building();
+  cells.push_back(cell(600, 500, 30, 7));
+  cells.push_back(cell(501, 501, 60, 3));
+  std::uint64_t points = 0;
+  for (const KeptTile& tile : all_cells(cells).tiles) {
+    points += tile.points;
+  }
+  EXPECT_EQ(points, 320'010U);
+  EXPECT_EQ(all_cells(cells).tiles.size(), 17U);
+}
+
 TEST(WithoutGhosts, keeps_a_second_building_but_no_far_cluster) {
   std::vector<CellCount> cells = building();
   cells.push_back(cell(560, 500, 30, 9'000));

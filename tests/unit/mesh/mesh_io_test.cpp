@@ -126,7 +126,7 @@ TEST(MeshIo, VerticesThatAreNoPlacesOfABuildingAreFormatErrors) {
 
 TEST(MeshIo, NumbersOfAPlyThatAreNoIndicesAreFormatErrors) {
   const auto ply = [](const char* face_properties, const std::string& face,
-                      const char* list = "list float double") {
+                      const char* list = "list int double") {
     return std::string(
                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
                "z\n"
@@ -134,6 +134,7 @@ TEST(MeshIo, NumbersOfAPlyThatAreNoIndicesAreFormatErrors) {
            list + " vertex_indices\n" + face_properties + "end_header\n0 0 0\n1 0 0\n0 1 0\n" + face + "\n";
   };
   EXPECT_EQ(error_id(ply("", "3 0 1 2"), "a.ply"), "none");
+  EXPECT_EQ(error_id(ply("", "3 0 1 2", "list float double"), "a.ply"), "M02");
   for (const char* face : {"3 0 1 3", "3 0 1 -1", "3 0 1 1e300", "3 0 1 0.5", "1e300 0 1 2", "-3 0 1 2",
                            "2.5 0 1 2", "4000000000 0 1 2"}) {
     EXPECT_EQ(error_id(ply("", face), "a.ply"), "M02") << face;
@@ -144,22 +145,18 @@ TEST(MeshIo, NumbersOfAPlyThatAreNoIndicesAreFormatErrors) {
                            "3 0 1 2 1e308 0 0", "3 0 1 2 0.5 0 0"}) {
     EXPECT_EQ(error_id(ply(extras, face), "a.ply"), "M02") << face;
   }
-  std::string binary =
+  const std::string head =
       "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty "
-      "float z\n"
-      "element face 1\nproperty list float float vertex_indices\nend_header\n";
-  const auto add = [&binary](std::initializer_list<float> values) {
-    for (const float v : values) binary.append(std::bit_cast<std::array<char, 4>>(v).data(), 4);
+      "float z\nelement face 1\nproperty list uchar float vertex_indices\nend_header\n";
+  const auto floats = [](std::initializer_list<float> values) {
+    std::string bytes;
+    for (const float v : values) bytes.append(std::bit_cast<std::array<char, 4>>(v).data(), 4);
+    return bytes;
   };
-  add({0, 0, 0, 1, 0, 0, 0, 1, 0});
-  const std::string head = binary;
-  for (const auto& face : {std::initializer_list<float>{3, 0, 1, NAN},
-                           {NAN, 0, 1, 2},
-                           {INFINITY, 0, 1, 2},
-                           {3, 0, 1, -INFINITY}}) {
-    binary = head;
-    add(face);
-    EXPECT_EQ(error_id(binary, "nan.ply"), "M02");
+  const std::string vertices = floats({0, 0, 0, 1, 0, 0, 0, 1, 0});
+  EXPECT_EQ(error_id(head + vertices + "\3" + floats({0, 1, 2}), "a.ply"), "none");
+  for (const float v : {NAN, INFINITY, -INFINITY}) {
+    EXPECT_EQ(error_id(head + vertices + "\3" + floats({0, 1, v}), "nan.ply"), "M02") << v;
   }
 }
 

@@ -85,16 +85,65 @@ TEST(MeshTree, NearestFacingPassesOverTheOtherSideOfAThinWall) {
   EXPECT_EQ(tree.nearest_facing(p, 0.05, Vec3(-1, 0, 0), 0.9).triangle, -1);
 }
 
-TEST(MeshTree, SegmentsStopAtTheFirstTriangleAndSkipTheirOwnStart) {
+TEST(MeshTree, RaysStopAtTheFirstTriangleWithinTheirLimits) {
   TriangleMesh mesh = box({0, 0, 0}, {4, 4, 3});
   append(mesh, box({4.1, 0, 0}, {8, 4, 3}));
   const MeshTree tree(mesh);
   const Vec3 on_wall(4, 1.7, 1.1);
-  const auto hit = tree.first_on_segment(on_wall, Vec3(0.4, 0, 0), 1e-6);
+  const Vec3 east(1, 0, 0);
+  const auto hit = tree.first_on_ray(on_wall, east, 1e-6, 0.4);
   ASSERT_GE(hit.triangle, 12);
   EXPECT_NEAR(hit.distance, 0.1, 1e-12);
-  EXPECT_EQ(tree.first_on_segment(on_wall, Vec3(0.05, 0, 0), 1e-6).triangle, -1);
-  EXPECT_EQ(tree.first_on_segment(Vec3(2, 2, 5), Vec3(1, 0, 0), 0).triangle, -1);
+  EXPECT_EQ(tree.first_on_ray(on_wall, east, 1e-6, 0.05).triangle, -1);
+  EXPECT_EQ(tree.first_on_ray({2, 2, 5}, east, 0, 100).triangle, -1);
+  EXPECT_NEAR(tree.first_on_ray({2, 2, 3}, east, 0, 100).distance, 2,
+              1e-12);  // along the ceiling, in its plane
+  EXPECT_NEAR(tree.first_on_ray({2, 2, 1}, -east, 0, 100).distance, 2, 1e-12);
+}
+
+TEST(MeshTree, TheFirstOnARayEqualsTheBruteForce) {
+  TriangleMesh mesh = random_triangles(300);
+  append(mesh, box({2, 2, 2}, {6, 7, 4}));
+  const MeshTree tree(mesh);
+  std::vector<MeshTree> single;
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.triangles.size()); ++t) {
+    single.emplace_back(mesh, std::vector<std::int32_t>{t});
+  }
+  int hits = 0;
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    const Vec3 from = random_point(6, i, 10);
+    Vec3 unit = random_point(7, i, 2) - Vec3(1, 1, 1);
+    for (int axis = 0; axis < 3; ++axis) {  // some level, upright, along an axis
+      if (i % 8 >= 4 && (i >> axis & 1U) != 0) unit[axis] = 0;
+    }
+    if (unit.isZero()) continue;
+    unit.normalize();
+    const double farthest = i % 3 == 0 ? 2 : 20;
+    MeshTree::Hit best;
+    for (const MeshTree& triangle : single) {
+      const MeshTree::Hit one = triangle.first_on_ray(from, unit, 0.01, farthest);
+      if (one.distance < best.distance) best = one;
+    }
+    const MeshTree::Hit hit = tree.first_on_ray(from, unit, 0.01, farthest);
+    EXPECT_EQ(hit.triangle, best.triangle) << i;
+    EXPECT_EQ(hit.distance, best.distance) << i;
+    hits += hit.triangle >= 0 ? 1 : 0;
+  }
+  EXPECT_GT(hits, 100);
+}
+
+TEST(MeshTree, AnswersTheSameForManyTrianglesInOnePlace) {
+  TriangleMesh mesh;  // their middles coincide: no plane parts them
+  for (std::int32_t i = 0; i < 3000; ++i) {
+    const double size = 1 + 1e-3 * i;
+    mesh.vertices.insert(mesh.vertices.end(),
+                         {Vec3(-size, -size, 0), Vec3(size, -size, 0), Vec3(0, size, 0)});
+    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  const MeshTree tree(mesh);
+  const auto hit = tree.first_on_ray({0, 0, 1}, {0, 0, -1}, 0, 5);
+  EXPECT_DOUBLE_EQ(hit.distance, 1);
+  EXPECT_DOUBLE_EQ(tree.nearest({0, 0, -2}).distance, 2);
 }
 
 TEST(MeshTree, AnEmptySubsetAnswersWithNothing) {

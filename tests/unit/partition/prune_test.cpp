@@ -104,11 +104,10 @@ TEST(Prune, TwoWallsInOneRowBothKeepTheirEdges) {
 
 /// Whether p lies in the face, or within 1e-9 m of it.
 bool holds(const CellComplex& complex, std::size_t face, const Vec2& p) {
-  const std::int64_t begin = complex.face_offset[face];
-  const std::int64_t end = complex.face_offset[face + 1];
-  for (std::int64_t i = begin; i < end; ++i) {
-    const Vec2& from = complex.vertices[complex.face_vertex[i]];
-    const Vec2 side = complex.vertices[complex.face_vertex[i + 1 < end ? i + 1 : begin]] - from;
+  const FaceCorners corners = complex.corners(face);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec2& from = corners[i];
+    const Vec2 side = corners.after(i) - from;
     if (side.x() * (p - from).y() - side.y() * (p - from).x() < -1e-9 * std::max(1.0, side.norm())) {
       return false;
     }
@@ -122,10 +121,8 @@ std::size_t torn_faces(const CellComplex& whole, const CellComplex& pruned) {
   for (std::size_t f = 0; f < whole.faces(); ++f) {
     bool held = false;
     for (std::size_t g = 0; g < pruned.faces() && !held; ++g) {
-      held = true;
-      for (std::int64_t i = whole.face_offset[f]; i < whole.face_offset[f + 1] && held; ++i) {
-        held = holds(pruned, g, whole.vertices[whole.face_vertex[i]]);
-      }
+      const FaceCorners corners = whole.corners(f);
+      held = std::all_of(corners.begin(), corners.end(), [&](const Vec2& p) { return holds(pruned, g, p); });
     }
     torn += held ? 0 : 1;
   }

@@ -68,12 +68,11 @@ CellComplex renumbered(const CellComplex& complex) {
   other.face_vertex.clear();
   other.face_edge.clear();
   for (std::int32_t face = faces - 1; face >= 0; --face) {
-    const auto begin = static_cast<std::size_t>(complex.face_offset[static_cast<std::size_t>(face)]);
-    const auto end = static_cast<std::size_t>(complex.face_offset[static_cast<std::size_t>(face) + 1]);
-    for (std::size_t i = 0; i < end - begin; ++i) {
-      const std::size_t from = begin + (i + 1) % (end - begin);
-      other.face_vertex.push_back(complex.face_vertex[from]);
-      other.face_edge.push_back(complex.face_edge[from]);
+    const auto vertices = complex.vertices_of(static_cast<std::size_t>(face));
+    const auto edges = complex.edges_of(static_cast<std::size_t>(face));
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      other.face_vertex.push_back(vertices[(i + 1) % vertices.size()]);
+      other.face_edge.push_back(edges[(i + 1) % edges.size()]);
     }
     other.face_offset.push_back(static_cast<std::int64_t>(other.face_vertex.size()));
   }

@@ -68,9 +68,8 @@ inline std::vector<std::uint8_t> labelled(const CellComplex& c,
   std::vector<std::uint8_t> label(c.cells(), 0);
   for (std::size_t k = 0; k < c.layers(); ++k) {
     for (std::size_t f = 0; f < c.faces(); ++f) {
-      const auto first = static_cast<std::size_t>(c.face_offset[f]);
-      const Vec2 middle = 0.5 * (c.vertices[c.face_vertex[first]] + c.vertices[c.face_vertex[first + 2]]);
-      label[c.cell(f, k)] = empty(middle, k) ? 1 : 0;
+      const Vec2 middle = 0.5 * (c.corners(f)[0] + c.corners(f)[2]);
+      label[c.cell(f, k)] = empty(middle, k) ? Label::kEmpty : Label::kSolid;
     }
   }
   return label;

@@ -25,8 +25,8 @@ struct HalfSeenWall {
     const std::size_t w = complex.wall_face(edge, 0);
     weights.wall_omega[w] = 0.9F;
     weights.wall_left[w] = 0.9F;
-    label.assign(complex.cells(), static_cast<std::uint8_t>(Label::kSolid));
-    label[complex.cell(5, 0)] = label[complex.cell(6, 0)] = static_cast<std::uint8_t>(Label::kEmpty);
+    label.assign(complex.cells(), Label::kSolid);
+    label[complex.cell(5, 0)] = label[complex.cell(6, 0)] = Label::kEmpty;
     for (const CellComplex::Line& line : complex.lines) {
       WallLine wall;
       wall.id = line.wall_id;
@@ -109,15 +109,15 @@ TEST(OneSided, ALineThatMayNotCarryInTheWallsLayersDoesNotCloseIt) {
 
 TEST(OneSided, AWallBetweenEmptyAndSolidIsNone) {
   HalfSeenWall scene(0);
-  scene.label[scene.complex.cell(6, 0)] = static_cast<std::uint8_t>(Label::kSolid);
+  scene.label[scene.complex.cell(6, 0)] = Label::kSolid;
   EXPECT_TRUE(find_one_sided(scene.complex, scene.weights, scene.label, 3).empty());
 }
 
 TEST(UsualThickness, IsTheDistanceBetweenTheFacesOfWalls) {
   const CellComplex complex = grid_complex({-1, 0, 4, 4.12, 8, 8.3, 9, 10}, {-1, 0, 4, 5}, {0, 2.6});
-  std::vector<std::uint8_t> label(complex.cells(), static_cast<std::uint8_t>(Label::kSolid));
+  std::vector<std::uint8_t> label(complex.cells(), Label::kSolid);
   EXPECT_NEAR(usual_thickness(complex, label), 0.15, 1e-9) << "no wall tells";
-  for (const std::size_t face : {8U, 10U}) label[face] = static_cast<std::uint8_t>(Label::kEmpty);
+  for (const std::size_t face : {8U, 10U}) label[face] = Label::kEmpty;
   EXPECT_NEAR(usual_thickness(complex, label), 0.12, 1e-9);
 }
 

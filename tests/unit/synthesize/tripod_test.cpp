@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/random/counter_random.h"
 #include "tests/unit/synthesize/test_scenes.h"
 
 namespace roomcut::synthesize {
@@ -23,34 +22,6 @@ json tripod(std::uint64_t points) {
 
 Vec3 at(const std::vector<float>& xyz, std::size_t i) {
   return {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
-}
-
-TEST(Bvh, FindsTheSameHitAsTryingEveryTriangle) {
-  std::vector<SurfaceTriangle> triangles;
-  std::uint64_t counter = 0;
-  const auto draw = [&] { return random_unit(7, 0, counter++); };
-  const auto vector = [&](double size) {
-    return Vec3(size * (draw() - 0.5), size * (draw() - 0.5), size * (draw() - 0.5));
-  };
-  for (int i = 0; i < 100; ++i) triangles.push_back({vector(10), vector(3), vector(3), PointOrigin::kTruth});
-  const Bvh bvh(triangles);
-  int hits = 0;
-  for (int i = 0; i < 300; ++i) {
-    const Vec3 origin = vector(12);
-    const Vec3 direction = vector(1).normalized();
-    const Bvh::Hit hit = bvh.first_hit(origin, direction, 100);
-    Bvh::Hit best;
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-      const std::vector<SurfaceTriangle> one(triangles.begin() + static_cast<std::ptrdiff_t>(t),
-                                             triangles.begin() + static_cast<std::ptrdiff_t>(t) + 1);
-      const Bvh::Hit single = Bvh(one).first_hit(origin, direction, 100);
-      if (single.triangle == 0 && single.distance < best.distance)
-        best = {single.distance, static_cast<std::int32_t>(t)};
-    }
-    EXPECT_EQ(hit.triangle, best.triangle);
-    if (best.triangle >= 0) ++hits;
-  }
-  EXPECT_GT(hits, 30);
 }
 
 TEST(TripodScan, MeetsTheWantedNumberOfPointsAndLiesOnTheSurface) {

@@ -2,8 +2,6 @@
 // The energy that graphcut minimised, taken apart for one cell: E = sum of D(label) + mu * sum of
 // unseen(omega) * (1 - implied) * A over the faces between different labels (stages/graphcut/README.md).
 
-const WHOLE = 0.3; // a face of which that much was seen costs nothing
-
 /**
  * The faces of a cell: where, what covers them, and the cell beyond (-1: outside, solid).
  * @returns {{kind: string, index: number, area: number, omega: number, implied: number, points: number, beyond: number, wall: ?string}[]}
@@ -48,19 +46,19 @@ export function facesOf(complex, cell) {
 }
 
 /** What a face costs when the labels on its two sides differ [m^3]. */
-export function boundaryCost(face, mu) {
-  return mu * Math.max(0, 1 - face.omega / WHOLE) * (1 - face.implied) * face.area;
+export function boundaryCost(face, price) {
+  return price.mu * Math.max(0, 1 - face.omega / price.freeFrom) * (1 - face.implied) * face.area;
 }
 
-/** The length mu of the labelling [m]; NaN when the labels do not tell. */
-export function lengthMu(block) {
-  return block.graphcut?.mu_m ?? Number.NaN;
+/** What a surface costs: the length mu [m], and the share of a face from which on it is free; NaN when the labels do not tell. */
+export function priceOf(block) {
+  return { mu: block.graphcut?.mu_m ?? Number.NaN, freeFrom: block.graphcut?.free_from ?? Number.NaN };
 }
 
 /** What flipping a cell alone would change: {data, boundary, total} [m^3], as graphcut's margin. */
 export function flipCost(complex, cell) {
   const { block } = complex;
-  const mu = lengthMu(block);
+  const price = priceOf(block);
   const label = block.label[cell];
   const empty = block.evidence_d_empty[cell];
   const solid = block.evidence_d_solid[cell];
@@ -68,7 +66,7 @@ export function flipCost(complex, cell) {
   let boundary = 0;
   for (const face of facesOf(complex, cell)) {
     const other = face.beyond < 0 ? 0 : block.label[face.beyond];
-    boundary += (other === label ? 1 : -1) * boundaryCost(face, mu);
+    boundary += (other === label ? 1 : -1) * boundaryCost(face, price);
   }
   return { data, boundary, total: data + boundary };
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Why a cell came out empty or solid, in words and numbers.
 
-import { boundaryCost, facesOf, flipCost, lengthMu } from "../data/energy.js";
+import { boundaryCost, facesOf, flipCost, priceOf } from "../data/energy.js";
 import { make, number, short } from "../dom.js";
 
 const kCosts = new Set(["beta", "d_empty", "d_solid"]);
@@ -72,7 +72,7 @@ function energyOf(complex, cell, flip) {
 
 function beyondOf(complex, cell) {
   const { block } = complex;
-  const mu = lengthMu(block);
+  const price = priceOf(block);
   const rows = facesOf(complex, cell).map((face) => [
     face.wall ?? kPlace[face.kind],
     number(face.area),
@@ -80,12 +80,12 @@ function beyondOf(complex, cell) {
     number(face.implied),
     face.points,
     face.beyond < 0 ? "outside" : block.label[face.beyond] === 1 ? "empty" : "solid",
-    number(boundaryCost(face, mu), 3),
+    number(boundaryCost(face, price), 3),
   ]);
   return [
     make("h3", { text: "Its faces" }),
     table(["", "m²", "ω", "implied", "points", "beyond", "m³"], rows),
-    make("p", { class: "quiet", text: `ω is the share of a face that points cover. Implied: the unseen other side of a wall or slab that was seen. A face costs μ (1 − ω / 0.3) (1 − implied) area, nothing when 30 % of it was seen, μ = ${short(mu)} m, when its two sides have different labels.` }),
+    make("p", { class: "quiet", text: `ω is the share of a face that points cover. Implied: the unseen other side of a wall or slab that was seen. A face costs μ (1 − ω / ${short(price.freeFrom)}) (1 − implied) area, nothing when ω is larger, μ = ${short(price.mu)} m, when its two sides have different labels.` }),
   ];
 }
 
@@ -112,7 +112,7 @@ export function whyWallFace(complex, edge, layer) {
       ["points", block.wall_points[index]],
       ["speaks for empty on the left", number(block.wall_left[index], 3)],
       ["speaks for empty on the right", number(block.wall_right[index], 3)],
-      ["cost of a wall here", `${number(boundaryCost({ omega, implied, area: length * complex.height(layer) }, lengthMu(block)), 3)} m³`],
+      ["cost of a wall here", `${number(boundaryCost({ omega, implied, area: length * complex.height(layer) }, priceOf(block)), 3)} m³`],
     ]),
   ];
 }

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <cstring>
 
-namespace roomcut::ingest {
+namespace roomcut {
 
-/// The numbers that binary point files hold.
+/// The numbers that binary files of points and meshes hold.
 enum class ScalarType : std::uint8_t { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
 
 constexpr std::size_t bytes_of(ScalarType type) {
@@ -59,4 +59,4 @@ auto with_loader(ScalarType type, bool swap, F&& f) {
   }
 }
 
-}  // namespace roomcut::ingest
+}  // namespace roomcut

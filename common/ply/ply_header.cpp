@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stages/ingest/ply_header.h"
+#include "common/ply/ply_header.h"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <numeric>
 #include <sstream>
-#include <string_view>
+#include <utility>
 
-#include "common/errors/codes.h"
-
-namespace roomcut::ingest {
+namespace roomcut {
 
 namespace {
-
-constexpr std::size_t kLargestHeader = 1 << 20;
 
 struct TypeName {
   std::string_view name;
@@ -41,8 +37,6 @@ constexpr std::array<TypeName, 16> kTypes{{{"char", ScalarType::kInt8},
 /// Takes the header apart line by line; every error names the line.
 class HeaderParser {
  public:
-  explicit HeaderParser(const ScanBytes& file) : file_(file) {}
-
   /// Returns true at end_header.
   bool take(const std::string& text) {
     ++header_.lines;
@@ -79,10 +73,7 @@ class HeaderParser {
   }
 
  private:
-  [[noreturn]] void wrong(const std::string& what) const {
-    throw StageError(errors::kScanFormat, file_.name() + ": header line " + std::to_string(header_.lines),
-                     what, "export the scan again as PLY, ascii or binary");
-  }
+  [[noreturn]] void wrong(const std::string& what) const { throw PlyHeaderError(header_.lines, what); }
 
   ScalarType type_of(const std::string& name) const {
     const auto* const found =
@@ -142,7 +133,6 @@ class HeaderParser {
     header_.elements.back().properties.push_back(property);
   }
 
-  const ScanBytes& file_;
   PlyHeader header_;
   bool has_format_ = false;
 };
@@ -160,19 +150,17 @@ std::uint64_t PlyElement::smallest_record() const {
                          });
 }
 
-PlyHeader read_ply_header(const ScanBytes& file) {
-  std::string text(static_cast<std::size_t>(std::min<std::uint64_t>(file.size(), kLargestHeader)), '\0');
-  text.resize(file.read(0, text.data(), text.size()));
-  HeaderParser parser(file);
-  const bool pairs = text.find('\n') == text.find('\r') + 1;  // else a '\n' behind a '\r' may be a point's
+std::optional<PlyHeader> parse_ply_header(std::string_view text) {
+  HeaderParser parser;
+  const bool pairs = text.find('\n') == text.find('\r') + 1;  // else a '\n' behind a '\r' may be a value's
   std::size_t begin = 0;
   while (begin < text.size()) {
     const std::size_t end = std::min(text.find_first_of("\r\n", begin), text.size());
-    if (end == text.size() && text.compare(begin, std::string::npos, "end_header") != 0) {
+    if (end == text.size() && text.substr(begin) != "end_header") {
       break;  // a line cut in its middle says nothing
     }
-    const bool windows = pairs && text.compare(end, 2, "\r\n") == 0;
-    const bool done = parser.take(text.substr(begin, end - begin));
+    const bool windows = pairs && text.substr(end, 2) == "\r\n";
+    const bool done = parser.take(std::string(text.substr(begin, end - begin)));
     begin = std::min(text.size(), end + (windows ? 2 : 1));
     if (done) {
       PlyHeader header = parser.finish();
@@ -180,12 +168,7 @@ PlyHeader read_ply_header(const ScanBytes& file) {
       return header;
     }
   }
-  if (text.size() == kLargestHeader) {
-    throw StageError(errors::kScanFormat, file.name(), "no end_header within the first MiB",
-                     "export the scan again as PLY, ascii or binary");
-  }
-  throw StageError(errors::kScanTruncated, file.name(), "the header ends before end_header",
-                   "export or copy the scan again");
+  return std::nullopt;
 }
 
-}  // namespace roomcut::ingest
+}  // namespace roomcut

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "stages/ingest/scalar_type.h"
-#include "stages/ingest/scan_bytes.h"
+#include "common/ply/scalar_type.h"
 
-namespace roomcut::ingest {
+namespace roomcut {
 
 enum class PlyFormat { kAscii, kLittleEndian, kBigEndian };
 
@@ -37,7 +40,19 @@ struct PlyHeader {
   std::size_t vertex = 0;         ///< index of the vertex element
 };
 
-/// Reads the header. Errors: kScanFormat (with the header line), kScanTruncated (no end_header).
-PlyHeader read_ply_header(const ScanBytes& file);
+/// Readers look no further for the end of a header [bytes].
+inline constexpr std::size_t kLargestPlyHeader = 1 << 20;
 
-}  // namespace roomcut::ingest
+/// What is wrong in a header; readers add the name of the file and the code of their errors.
+struct PlyHeaderError : std::runtime_error {
+  PlyHeaderError(std::size_t at, const std::string& what) : std::runtime_error(what), line(at), cause(what) {}
+  std::size_t line;   ///< of the header, from 1
+  std::string cause;  ///< for people; may hold any bytes of the file, NUL too, at which what() ends
+};
+
+/// The header at the beginning of `text`; none when it does not end in there. Lines may end in CR, LF or
+/// both. Throws PlyHeaderError: unknown words, types or formats; no format; no vertices; a count that is
+/// none.
+std::optional<PlyHeader> parse_ply_header(std::string_view text);
+
+}  // namespace roomcut

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stages/partition/insert_line.h"
+#include "common/plan/segment_inserter.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "common/cells/cell_complex.h"
-#include "stages/partition/reach.h"
 
-namespace roomcut::partition {
+namespace roomcut {
 
 namespace {
 
@@ -21,16 +20,16 @@ int side_of(double distance) {
 
 }  // namespace
 
-int LineInserter::insert(const Line2& line, double t0, double t1, std::int32_t index) {
-  line_ = line;
-  normal_ = line.normal();
-  direction_ = line.direction();
-  t0_ = t0;
-  t1_ = t1;
+int SegmentInserter::insert(const PlanSegment& segment, std::int32_t index, std::int32_t within) {
+  segment_ = segment;
+  normal_ = segment.line.normal();
+  direction_ = segment.line.direction();
+  double t0 = segment.t0;
+  double t1 = segment.t1;
   if (!clip_to_rectangle(t0, t1)) {
     return 0;
   }
-  collect_faces(plan_.locate(line.at(0.5 * (t0 + t1))));
+  collect_faces(plan_.locate(segment.line.at(0.5 * (t0 + t1)), within));
   int splits = 0;
   for (const std::int32_t face : faces_) {
     note_shared_edges(face, index);
@@ -41,17 +40,17 @@ int LineInserter::insert(const Line2& line, double t0, double t1, std::int32_t i
     }
     const std::int32_t h = down.inside ? plan_.split_edge(down.h, down.point) : down.h;
     const std::int32_t g = up.inside ? plan_.split_edge(up.h, up.point) : up.h;
-    plan_.split_face(h, g, index, line_);
+    plan_.split_face(h, g, index, segment_.line);
     ++splits;
   }
   return splits;
 }
 
 /// Narrows [t0, t1] to the part inside the rectangle; false when there is none.
-bool LineInserter::clip_to_rectangle(double& t0, double& t1) const {
-  const Vec2& low = plan_.vertices[0];
-  const Vec2& high = plan_.vertices[2];
-  const Vec2 foot = line_.d * normal_;
+bool SegmentInserter::clip_to_rectangle(double& t0, double& t1) const {
+  const Vec2& low = plan_.low();
+  const Vec2& high = plan_.high();
+  const Vec2 foot = segment_.line.d * normal_;
   for (int axis = 0; axis < 2; ++axis) {
     const double slope = direction_[axis];
     if (std::abs(slope) < 1e-15) {
@@ -70,7 +69,7 @@ bool LineInserter::clip_to_rectangle(double& t0, double& t1) const {
 
 /// Fills faces_ with the faces that the segment enters or touches: from face to face across the edges it
 /// meets.
-void LineInserter::collect_faces(std::int32_t start) {
+void SegmentInserter::collect_faces(std::int32_t start) {
   seen_.resize(plan_.face_start.size(), 0);
   ++round_;
   faces_.assign(1, start);
@@ -89,7 +88,7 @@ void LineInserter::collect_faces(std::int32_t start) {
   }
 }
 
-bool LineInserter::touches_segment(std::int32_t h) const {
+bool SegmentInserter::touches_segment(std::int32_t h) const {
   const std::int32_t end = plan_.half_edges[h].next;
   const double da = distance(h);
   const double db = distance(end);
@@ -105,17 +104,17 @@ bool LineInserter::touches_segment(std::int32_t h) const {
   const double ta = along(h);
   const double step = along(end) - ta;
   const auto [low, high] = std::minmax({ta + s0 * step, ta + s1 * step});
-  return low <= t1_ + kReach_m && high >= t0_ - kReach_m;
+  return low <= segment_.t1 + kReach_m && high >= segment_.t0 - kReach_m;
 }
 
 /// Notes the face's edges that the segment runs along. They stay with the line that was there first, for now.
-void LineInserter::note_shared_edges(std::int32_t face, std::int32_t index) {
+void SegmentInserter::note_shared_edges(std::int32_t face, std::int32_t index) {
   const std::int32_t first = plan_.face_start[face];
   std::int32_t h = first;
   do {
     const std::int32_t owner = plan_.half_edges[h].line;
-    if (owner != Subdivision::kNoLine && owner != index && runs_along(plan_, h, line_) &&
-        overlap(plan_, h, {line_, t0_, t1_}) > kPlanSnap_m) {
+    if (owner != Subdivision::kNoLine && owner != index && runs_along(plan_, h, segment_.line) &&
+        overlap(plan_, h, segment_) > kPlanSnap_m) {
       shared_.emplace(owner, index);
     }
     h = plan_.half_edges[h].next;
@@ -125,7 +124,7 @@ void LineInserter::note_shared_edges(std::int32_t face, std::int32_t index) {
 /// The ends of the chord that the line cuts from the face: `down` where the boundary, counter-clockwise,
 /// passes from the line's positive to its negative side, `up` where it comes back. False when the face lies
 /// on one side.
-bool LineInserter::find_chord(std::int32_t face, ChordEnd& down, ChordEnd& up) const {
+bool SegmentInserter::find_chord(std::int32_t face, ChordEnd& down, ChordEnd& up) const {
   const std::int32_t first = plan_.face_start[face];
   std::int32_t top = first;
   double highest = distance(first);
@@ -166,7 +165,7 @@ bool LineInserter::find_chord(std::int32_t face, ChordEnd& down, ChordEnd& up) c
 
 /// The chord's end on the boundary before h: the corner on the line if there is one, else a new vertex in the
 /// edge.
-LineInserter::ChordEnd LineInserter::end_before(std::int32_t h, ChordEnd on_line) const {
+SegmentInserter::ChordEnd SegmentInserter::end_before(std::int32_t h, ChordEnd on_line) const {
   if (on_line.h >= 0) {
     return on_line;
   }
@@ -178,9 +177,9 @@ LineInserter::ChordEnd LineInserter::end_before(std::int32_t h, ChordEnd on_line
 }
 
 /// Whether the chord meets the segment and leaves two parts of more than snapping width.
-bool LineInserter::worth_a_split(const ChordEnd& down, const ChordEnd& up) const {
+bool SegmentInserter::worth_a_split(const ChordEnd& down, const ChordEnd& up) const {
   const auto [low, high] = std::minmax({direction_.dot(down.point), direction_.dot(up.point)});
-  if (high <= t0_ + kPlanSnap_m || low >= t1_ - kPlanSnap_m) {
+  if (high <= segment_.t0 + kPlanSnap_m || low >= segment_.t1 - kPlanSnap_m) {
     return false;
   }
   const Vec2 chord = up.point - down.point;
@@ -201,4 +200,4 @@ bool LineInserter::worth_a_split(const ChordEnd& down, const ChordEnd& up) const
   return left > 0.5 * kPlanSnap_m && right < -0.5 * kPlanSnap_m;
 }
 
-}  // namespace roomcut::partition
+}  // namespace roomcut

@@ -1,15 +1,41 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stages/partition/subdivision.h"
+#include "common/plan/subdivision.h"
 
-namespace roomcut::partition {
+#include <utility>
+
+namespace roomcut {
 
 Subdivision::Subdivision(const Vec2& low, const Vec2& high)
-    : vertices{low, {high.x(), low.y()}, high, {low.x(), high.y()}}, face_start{0}, slot_{-1} {
+    : vertices{low, {high.x(), low.y()}, high, {low.x(), high.y()}},
+      face_start{0},
+      original{0},
+      root_{~0},
+      slot_{~0},
+      low_(low),
+      high_(high) {
   for (std::int32_t i = 0; i < 4; ++i) {
     const std::int32_t after = (i + 1) % 4;
     const std::int32_t before = (i + 3) % 4;
     half_edges.push_back({i, 2 * after, 2 * before, 0, kNoLine});
     half_edges.push_back({after, 2 * before + 1, 2 * after + 1, kOutside, kNoLine});
+  }
+}
+
+Subdivision::Subdivision(std::vector<Vec2> old_vertices, std::vector<HalfEdge> old_half_edges,
+                         std::vector<std::int32_t> old_face_start)
+    : vertices(std::move(old_vertices)),
+      half_edges(std::move(old_half_edges)),
+      face_start(std::move(old_face_start)),
+      low_(vertices.front()),
+      high_(vertices.front()) {
+  for (const Vec2& p : vertices) {
+    low_ = low_.cwiseMin(p);
+    high_ = high_.cwiseMax(p);
+  }
+  for (std::int32_t face = 0; face < static_cast<std::int32_t>(face_start.size()); ++face) {
+    root_.push_back(~face);
+    original.push_back(face);
+    slot_.push_back(~face);
   }
 }
 
@@ -58,12 +84,11 @@ void Subdivision::split_face(std::int32_t h, std::int32_t g, std::int32_t line, 
     walk = half_edges[walk].next;
   } while (walk != start);
   face_start.push_back(start);
+  original.push_back(original[face]);
   face_start[face] = fresh_is_below ? g : h;
 
   const auto split = static_cast<std::int32_t>(splits_.size());
-  if (slot_[face] >= 0) {
-    child(slot_[face]) = split;
-  }
+  node(slot_[face]) = split;
   splits_.push_back(
       {geometry.normal(), geometry.d, ~(fresh_is_below ? fresh : face), ~(fresh_is_below ? face : fresh)});
   slot_.push_back(2 * split + (fresh_is_below ? 0 : 1));
@@ -99,7 +124,9 @@ void Subdivision::dissolve_end(std::int32_t h) {
   const std::int32_t ahead = half_edges[h].next;
   const std::int32_t t = twin(h);
   const std::int32_t back = twin(ahead);
-  const bool corner_of_rectangle = half_edges[ahead].origin < 4;
+  const Vec2& p = from(ahead);
+  const bool corner_of_rectangle =
+      (p.x() == low_.x() || p.x() == high_.x()) && (p.y() == low_.y() || p.y() == high_.y());
   if (half_edges[back].next != t || half_edges[h].line != half_edges[ahead].line || corner_of_rectangle) {
     return;
   }
@@ -117,13 +144,17 @@ void Subdivision::dissolve_end(std::int32_t h) {
   half_edges[ahead].face = half_edges[back].face = kRemoved;
 }
 
-std::int32_t& Subdivision::child(std::int32_t slot) {
+/// What stands at a place of the trees.
+std::int32_t& Subdivision::node(std::int32_t slot) {
+  if (slot < 0) {
+    return root_[~slot];
+  }
   Split& split = splits_[slot / 2];
   return slot % 2 == 0 ? split.below : split.above;
 }
 
-std::int32_t Subdivision::locate(const Vec2& p) const {
-  std::int32_t at = splits_.empty() ? ~0 : 0;
+std::int32_t Subdivision::locate(const Vec2& p, std::int32_t within) const {
+  std::int32_t at = root_[within];
   while (at >= 0) {
     const Split& split = splits_[at];
     at = split.normal.dot(p) - split.d < 0 ? split.below : split.above;
@@ -134,7 +165,7 @@ std::int32_t Subdivision::locate(const Vec2& p) const {
 std::vector<std::int32_t> Subdivision::faces_in_tree_order() const {
   std::vector<std::int32_t> order;
   order.reserve(face_start.size());
-  std::vector<std::int32_t> open{splits_.empty() ? ~0 : 0};
+  std::vector<std::int32_t> open(root_.rbegin(), root_.rend());
   while (!open.empty()) {
     const std::int32_t at = open.back();
     open.pop_back();
@@ -150,4 +181,4 @@ std::vector<std::int32_t> Subdivision::faces_in_tree_order() const {
   return order;
 }
 
-}  // namespace roomcut::partition
+}  // namespace roomcut

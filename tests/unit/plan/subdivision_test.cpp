@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stages/partition/subdivision.h"
+#include "common/plan/subdivision.h"
 
 #include <gtest/gtest.h>
 
-namespace roomcut::partition {
+namespace roomcut {
 namespace {
 
 std::vector<std::int32_t> loop(const Subdivision& plan, std::int32_t start) {
@@ -70,4 +70,4 @@ TEST(Subdivision, ARemovedEdgeLeavesOneFaceWithoutItsVertices) {
 }
 
 }  // namespace
-}  // namespace roomcut::partition
+}  // namespace roomcut

@@ -7,7 +7,7 @@
 
 #include "common/cells/cell_complex.h"
 
-namespace roomcut::weigh_faces {
+namespace roomcut {
 
 /// A square grid over the plan of the complex. Its cells begin at the local origin, not at the complex's
 /// corner, which lies where the last point or line ends by chance.
@@ -45,4 +45,4 @@ struct PlanGrid {
   }
 };
 
-}  // namespace roomcut::weigh_faces
+}  // namespace roomcut

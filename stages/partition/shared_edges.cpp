@@ -1,27 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stages/partition/reach.h"
+#include "stages/partition/shared_edges.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "common/cells/cell_complex.h"
 
 namespace roomcut::partition {
 
-bool runs_along(const Subdivision& plan, std::int32_t h, const Line2& line) {
-  const Vec2& p = plan.from(h);
-  const Vec2& q = plan.vertices[plan.target(h)];
-  return std::abs(line.distance(p)) <= kPlanSnap_m && std::abs(line.distance(q)) <= kPlanSnap_m &&
-         std::abs(line.along(q) - line.along(p)) > 0.9 * (q - p).norm();
-}
-
-double overlap(const Subdivision& plan, std::int32_t h, const Reach& reach) {
-  const auto [low, high] =
-      std::minmax({reach.line.along(plan.from(h)), reach.line.along(plan.vertices[plan.target(h)])});
-  return std::min(high, reach.t1) - std::max(low, reach.t0);
-}
-
-void assign_shared_edges(Subdivision& plan, const std::vector<Reach>& reach,
+void assign_shared_edges(Subdivision& plan, const std::vector<PlanSegment>& reach,
                          const std::set<std::pair<std::int32_t, std::int32_t>>& shared,
                          const std::vector<std::int32_t>& order) {
   std::vector<std::vector<std::int32_t>> others(reach.size());
