@@ -93,8 +93,8 @@ test: build
 ready:
 	@[ -x "$$BUILD/bin/report" ] && [ -x "$$BUILD/bin/artefact" ] || $(MAKE) pipeline_programs
 ready_tools: ready
-	@[ -x "$$BUILD/bin/view" ] && [ -x "$$BUILD/bin/compare" ] && [ -x "$$BUILD/bin/diff_lines" ] || $(MAKE) programs
-view compare diff-lines: ready_tools
+	@[ -x "$$BUILD/bin/view" ] && [ -x "$$BUILD/bin/compare" ] && [ -x "$$BUILD/bin/diff_lines" ] && [ -x "$$BUILD/bin/verify" ] || $(MAKE) programs
+view compare diff-lines verify: ready_tools
 
 demo: pipeline_programs
 	@mkdir -p work/demo

@@ -297,7 +297,7 @@ case $command in
     "$BIN/diff_lines" --work . ;;
   drop-edit) drop_edit ;;
   status) show_status ;;
-  verify) "$BIN/artefact" verify --schemas "$root/schemas" --scan "$SCAN" $(stamped | sed 's|^|stamps/|') ;;
+  verify) "$BIN/verify" --schemas "$root/schemas" --scan "$SCAN" $(stamped | sed 's|^|stamps/|') ;;
   clean) clean "$1" ;;
   evaluate)
     [ -n "$TRUTH" ] || fail "make evaluate: no truth given" "make evaluate SCAN=… TRUTH=truth.off"

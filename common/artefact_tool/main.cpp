@@ -3,20 +3,19 @@
 
 #include "common/artefact/h5.h"
 #include "common/artefact_tool/commands.h"
+#include "common/artefact_tool/tool_main.h"
 #include "common/errors/codes.h"
 #include "common/pipeline/pipeline_table.h"
 
 namespace {
 
 using namespace roomcut;
-using Paths = std::vector<std::filesystem::path>;
 
 constexpr const char* kUsage =
     "artefact show|digest|bytes FILE …\n"
     "artefact plan [--scan FILE] [--again STAGE] GOAL … < PIPELINE   artefact status [--scan FILE] < "
     "PIPELINE\n"
-    "artefact rules\n"
-    "artefact verify [--schemas FOLDER] [--scan FILE] STAMP …\n";
+    "artefact rules\n";
 
 void show(const std::filesystem::path& path) {
   const InputRecord record = inspect_artefact(path);
@@ -32,16 +31,6 @@ void show(const std::filesystem::path& path) {
     std::cout << "  input   " << input.name << ": " << input.path << " (" << input.artefact << " "
               << input.schema_version << ") " << input.payload_sha256 << "\n";
   }
-}
-
-/// Takes "--schemas FOLDER" and "--scan FILE" off the front.
-VerifyOptions take_options(Paths& paths) {
-  VerifyOptions options;
-  while (paths.size() > 1 && (paths[0] == "--schemas" || paths[0] == "--scan")) {
-    (paths[0] == "--scan" ? options.scan : options.schemas) = paths[1];
-    paths.erase(paths.begin(), paths.begin() + 2);
-  }
-  return options;
 }
 
 /// "--scan FILE" and "--again STAGE" in front, then goals.
@@ -64,10 +53,7 @@ int plan_or_status(const std::string& command, Paths paths) {
 }
 
 int run(const std::string& command, Paths paths) {
-  if (command == "verify") {
-    const VerifyOptions options = take_options(paths);
-    verify(paths, options);
-  } else if (command == "plan" || command == "status") {
+  if (command == "plan" || command == "status") {
     return plan_or_status(command, std::move(paths));
   } else if (command == "show" || command == "digest" || command == "bytes") {
     for (const std::filesystem::path& path : paths) {
@@ -90,15 +76,8 @@ int run(const std::string& command, Paths paths) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc > 1 ? argv[1] : "", argc > 2 ? Paths(argv + 2, argv + argc) : Paths());
-  } catch (const StageError& error) {
-    for (const Problem& problem : error.problems()) {
-      std::cerr << to_string(problem);
-    }
-    return static_cast<int>(error.exit_code());
-  } catch (const std::exception& error) {
-    std::cerr << "artefact: unexpected: " << error.what() << "\n";
-    return static_cast<int>(ExitCode::kBug);
-  }
+  return tool_main(argc, argv, [](Paths paths) {
+    const std::string command = paths.empty() ? "" : paths[0].string();
+    return run(command, paths.empty() ? paths : Paths(paths.begin() + 1, paths.end()));
+  });
 }

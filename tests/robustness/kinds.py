@@ -95,7 +95,7 @@ def ingest(scan):
     return Call("ingest", ["--work", ".", "--scan", scan])
 
 
-VERIFY = Call("artefact", ["verify", "--schemas", "{source}/schemas", *(f"stamps/{name}" for name in p.STAGES)], reads_only=True)
+VERIFY = Call("verify", ["--schemas", "{source}/schemas", *(f"stamps/{name}" for name in p.STAGES)], reads_only=True)
 
 
 def artefact(path):

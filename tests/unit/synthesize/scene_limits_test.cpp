@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/artefact/json_values.h"
 #include "common/errors/codes.h"
 #include "stages/tools/synthesize/sample.h"
 #include "stages/tools/synthesize/scene_json.h"

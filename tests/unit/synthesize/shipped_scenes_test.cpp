@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "common/artefact/json_values.h"
 #include "common/artefact/sha256.h"
 #include "common/mesh/mesh_check.h"
 #include "stages/tools/synthesize/scene_json.h"
