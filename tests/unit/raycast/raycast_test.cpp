@@ -13,12 +13,6 @@ using namespace roomcut::weigh_faces;
 
 namespace {
 
-const std::vector<float>& feature(const DataTerms& terms, const std::string& name) {
-  return std::find_if(terms.features.begin(), terms.features.end(),
-                      [&](const CellFeature& f) { return f.name == name; })
-      ->value;
-}
-
 struct Cube {
   CellComplex complex = grid_complex({-2, 0, 3, 5}, {-2, 0, 3, 5}, {-1, 0, 3, 4});
   std::size_t room = complex.cell(4, 1);

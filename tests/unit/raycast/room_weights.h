@@ -1,13 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "common/cells/cell_complex.h"
 #include "common/cells/interfaces.h"
 
 namespace roomcut::raycast {
+
+/// The values of a feature that is there.
+inline const std::vector<float>& feature(const DataTerms& terms, const std::string& name) {
+  return std::find_if(terms.features.begin(), terms.features.end(),
+                      [&](const CellFeature& f) { return f.name == name; })
+      ->value;
+}
 
 inline FaceWeights no_weights(const CellComplex& c) {
   FaceWeights w;

@@ -60,7 +60,7 @@ TEST(Switches, WithoutLevelRaysAClosedRoomIsNotTakenForAnOpenPlace) {
   for (const int rays : {2, 64}) {
     params.rays = rays;
     const DataTerms terms = cast_rays(complex, weights, params);
-    EXPECT_NEAR(terms.open[room], 0, 1e-6) << rays;
+    EXPECT_NEAR(feature(terms, "open")[room], 0, 1e-6) << rays;
     EXPECT_GT(terms.beta[room], 0.95) << rays;
   }
 }
