@@ -81,6 +81,29 @@ std::string check_edges(const CellComplex& complex) {
   return "";
 }
 
+/// One corner of face f, from face_vertex[i] to `to`: its edge joins the two and has f on this side, and no
+/// other corner has that side. `used`: two sides per edge.
+std::string check_corner(const CellComplex& complex, std::size_t f, std::int64_t i, std::int32_t to,
+                         std::vector<std::uint8_t>& used) {
+  const std::int32_t from = complex.face_vertex[i];
+  if (!in_range(from, complex.vertices.size()) || !in_range(complex.face_edge[i], complex.edges.size())) {
+    return at("face", f, "corner out of range");
+  }
+  const auto e = static_cast<std::size_t>(complex.face_edge[i]);
+  const CellComplex::Edge& edge = complex.edges[e];
+  const bool along = edge.v0 == from && edge.v1 == to;
+  if (!along && !(edge.v0 == to && edge.v1 == from)) {
+    return at("face", f, "an edge does not join its corners");
+  }
+  if ((along ? edge.left : edge.right) != static_cast<std::int32_t>(f)) {
+    return at("face", f, "an edge names another face on this side");
+  }
+  if (used[2 * e + (along ? 0 : 1)]++ != 0) {
+    return at("edge", e, "one side belongs to two corners");
+  }
+  return "";
+}
+
 /// Offsets, index ranges, and that every side of every edge belongs to exactly one corner of the face it
 /// names.
 std::string check_corners(const CellComplex& complex) {
@@ -97,22 +120,9 @@ std::string check_corners(const CellComplex& complex) {
       return at("face", f, "fewer than three corners");
     }
     for (std::int64_t i = begin; i < end; ++i) {
-      const std::int32_t from = complex.face_vertex[i];
       const std::int32_t to = complex.face_vertex[i + 1 == end ? begin : i + 1];
-      if (!in_range(from, complex.vertices.size()) || !in_range(complex.face_edge[i], complex.edges.size())) {
-        return at("face", f, "corner out of range");
-      }
-      const CellComplex::Edge& edge = complex.edges[complex.face_edge[i]];
-      const bool along = edge.v0 == from && edge.v1 == to;
-      if (!along && !(edge.v0 == to && edge.v1 == from)) {
-        return at("face", f, "an edge does not join its corners");
-      }
-      if ((along ? edge.left : edge.right) != static_cast<std::int32_t>(f)) {
-        return at("face", f, "an edge names another face on this side");
-      }
-      std::uint8_t& side = used[2 * static_cast<std::size_t>(complex.face_edge[i]) + (along ? 0 : 1)];
-      if (side++ != 0) {
-        return at("edge", static_cast<std::size_t>(complex.face_edge[i]), "one side belongs to two corners");
+      if (const std::string violation = check_corner(complex, f, i, to, used); !violation.empty()) {
+        return violation;
       }
     }
   }
