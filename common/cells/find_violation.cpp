@@ -121,7 +121,7 @@ std::string check_corners(const CellComplex& complex) {
     }
     for (std::int64_t i = begin; i < end; ++i) {
       const std::int32_t to = complex.face_vertex[i + 1 == end ? begin : i + 1];
-      if (const std::string violation = check_corner(complex, f, i, to, used); !violation.empty()) {
+      if (std::string violation = check_corner(complex, f, i, to, used); !violation.empty()) {
         return violation;
       }
     }
