@@ -170,6 +170,7 @@ struct FaceWeights {
   double wall_probability(std::size_t face) const { return surface_probability(wall_omega[face]); }
   double level_probability(std::size_t face) const { return surface_probability(level_omega[face]); }
   bool is_wall(std::size_t face) const { return is_likely(wall_probability(face)); }
+  bool is_surely_wall(std::size_t face) const { return is_sure(wall_probability(face)); }
   bool is_level(std::size_t face) const { return is_likely(level_probability(face)); }
   FaceSide wall_side(std::size_t face) const {
     return clear_side(wall_omega[face], wall_left[face], wall_right[face]);

@@ -25,6 +25,11 @@ inline bool is_likely(double probability) {
   return probability >= 0.5;
 }
 
+/// Enough to overrule a cut that put no surface there.
+inline bool is_sure(double probability) {
+  return probability >= 1;
+}
+
 /// The empty side of a face, where three quarters of what covers it agree.
 inline FaceSide clear_side(double omega, double left, double right) {
   constexpr double kAgree = 0.75;

@@ -86,8 +86,8 @@ std::vector<OneSidedWall> find_one_sided(const CellComplex& complex, const FaceW
       const float omega = weights.wall_omega[w];
       const FaceSide side = weights.wall_side(w);
       const bool front_left = side == FaceSide::kLeft;
-      if (!weights.is_wall(w) || side == FaceSide::kUnclear || !is_empty(complex, label, left, layer) ||
-          !is_empty(complex, label, right, layer)) {
+      if (!weights.is_surely_wall(w) || side == FaceSide::kUnclear ||
+          !is_empty(complex, label, left, layer) || !is_empty(complex, label, right, layer)) {
         continue;
       }
       const bool back_is_plus = front_left != left_is_plus(complex, edge);

@@ -25,7 +25,7 @@ using namespace roomcut;
 /// What the kernels work on: a scan, and the artefacts of a run on it.
 struct Material {
   Material(const std::filesystem::path& scan_file, const std::filesystem::path& work)
-      : scan(open_scan(scan_file)),
+      : scan(ingest::open_scan(scan_file)),
         header(CloudReader(work / "10_ingest/cloud.h5").header()),
         cells(read_cells(work / "50_partition/cells.h5")),
         weights(read_weights(work / "55_weigh_faces/weights.h5", cells)),
@@ -36,7 +36,7 @@ struct Material {
       cloud.read_tile(i, tiles[i]);
     }
   }
-  std::unique_ptr<ScanReader> scan;
+  std::unique_ptr<ingest::ScanReader> scan;
   CloudHeader header;
   std::vector<CloudTile> tiles;
   CellsFile cells;
@@ -50,35 +50,35 @@ void count(benchmark::State& state, double items) {
 
 void sort_into_tiles(benchmark::State& state, const Material& material) {
   for (auto step : state) {
-    benchmark::DoNotOptimize(tile_scan(*material.scan, {}, {}));
+    benchmark::DoNotOptimize(ingest::tile_scan(*material.scan, {}, {}));
   }
   count(state, static_cast<double>(material.header.points));
 }
 
 void class_points(benchmark::State& state, const Material& material) {
-  const TiledScan scan = tile_scan(*material.scan, {}, {});
+  const ingest::TiledScan scan = ingest::tile_scan(*material.scan, {}, {});
   for (auto step : state) {
     std::size_t points = 0;
-    class_tiles(scan, {}, [&](const CloudTile& part, bool /*last*/) { points += part.size(); });
+    ingest::class_tiles(scan, {}, [&](const CloudTile& part, bool /*last*/) { points += part.size(); });
     benchmark::DoNotOptimize(points);
   }
   count(state, static_cast<double>(material.header.points));
 }
 
 void find_levels_and_slices(benchmark::State& state, const Material& material) {
-  const TileSource tiles = [&](const TileVisitor& visit) {
+  const slice::TileSource tiles = [&](const slice::TileVisitor& visit) {
     for (std::size_t i = 0; i < material.tiles.size(); ++i) {
       visit(i, material.tiles[i]);
     }
   };
   for (auto step : state) {
-    benchmark::DoNotOptimize(slice_cloud(material.header, tiles, {}));
+    benchmark::DoNotOptimize(slice::slice_cloud(material.header, tiles, {}));
   }
   count(state, static_cast<double>(material.header.points));
 }
 
 void add_points_to_faces(benchmark::State& state, const Material& material) {
-  FaceWeigher weigher(material.cells.complex, material.header, {});
+  weigh_faces::FaceWeigher weigher(material.cells.complex, material.header, {});
   for (auto step : state) {
     for (const CloudTile& tile : material.tiles) {
       weigher.add(tile);
@@ -89,14 +89,15 @@ void add_points_to_faces(benchmark::State& state, const Material& material) {
 
 void cast_all_rays(benchmark::State& state, const Material& material) {
   for (auto step : state) {
-    benchmark::DoNotOptimize(cast_rays(material.cells.complex, material.weights, {}));
+    benchmark::DoNotOptimize(raycast::cast_rays(material.cells.complex, material.weights, {}));
   }
   count(state, static_cast<double>(material.cells.complex.cells()));
 }
 
 void cut_graph(benchmark::State& state, const Material& material) {
   for (auto step : state) {
-    benchmark::DoNotOptimize(graphcut(material.cells.complex, material.weights, material.terms, {}));
+    benchmark::DoNotOptimize(
+        graphcut::graphcut(material.cells.complex, material.weights, material.terms, {}));
   }
   count(state, static_cast<double>(material.cells.complex.cells()));
 }

@@ -50,11 +50,18 @@ TEST(CarriedLayers, ALineCarriesWhereTheFirstCutHasSurfaceOnIt) {
   EXPECT_EQ(scene.levels_at(4.06), std::vector<int>{2});
 }
 
-TEST(CarriedLayers, ThreeTenthsSeenAreEnough) {
+TEST(CarriedLayers, AWallSurelySeenCarriesWithoutTheCut) {
+  TwoStoreys scene;
+  scene.weights.wall_omega[scene.complex.wall_face(edge_near(scene.complex, {4, 2}), 2)] = 0.45F;
+  scene.restrict_lines();
+  EXPECT_EQ(scene.levels_at(4), (std::vector<int>{0, 2}));
+}
+
+TEST(CarriedLayers, AWallThatIsOnlyLikelyDoesNotOverruleTheCut) {
   TwoStoreys scene;
   scene.weights.wall_omega[scene.complex.wall_face(edge_near(scene.complex, {4, 2}), 2)] = 0.35F;
   scene.restrict_lines();
-  EXPECT_EQ(scene.levels_at(4), (std::vector<int>{0, 2}));
+  EXPECT_EQ(scene.levels_at(4), std::vector<int>{0});
 }
 
 TEST(CarriedLayers, LinesOfTheUsersAndThoseOfNothingStayAsTheyAre) {
