@@ -58,8 +58,8 @@ std::int32_t CellComplex::layer_at(double z) const {
 
 void DataTerms::reset(const CellComplex& complex) {
   features.clear();
-  for (std::vector<float>* values :
-       {&kappa, &vertical, &around, &winding, &surface_m2, &thin, &line_of_sight, &observed, &beta}) {
+  for (std::vector<float>* values : {&kappa, &vertical, &around, &winding, &surface_m2, &thin, &line_of_sight,
+                                     &observed, &closed, &beta}) {
     values->assign(complex.cells(), 0);
   }
   wall_implied.assign(complex.edges.size() * complex.layers(), 0);

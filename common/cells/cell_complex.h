@@ -206,7 +206,12 @@ struct DataTerms {
   std::vector<float> line_of_sight;  ///< share of the cell that the scanners looked through, where their
                                      ///< positions are known
   std::vector<float> observed;       ///< share of rays that end on a seen face: 0 = nothing is known of it
+  std::vector<float> closed;         ///< share of level rays that end on a seen face: 1 = closed all around
   std::vector<float> beta;           ///< probability that the cell is empty, 0 … 1
+
+  /// Share of the rays that end on a face seen from this side: how much of what lies around was seen from
+  /// inside, 0 … 1.
+  double seen_inside(std::size_t cell) const { return 0.5 * (observed[cell] + around[cell]); }
   /// Faces that must be there though no point lies on them, 0 … 1: the other side of a wall or slab that was
   /// seen from one side only.
   std::vector<float> wall_implied, level_implied;
@@ -215,9 +220,10 @@ struct DataTerms {
   std::vector<double> d_solid;  ///< cost of the label solid: V beta + what its own faces' fronts add [m^3]
 };
 
-/// What a cell is labelled, in the byte that stands for it.
+/// What a cell is labelled, in the byte that stands for it. Unknown: it may be a room that nobody entered, or
+/// open air; it is no part of the model, whose surface is that of the empty cells.
 struct Label {
-  static constexpr std::uint8_t kSolid = 0, kEmpty = 1;
+  static constexpr std::uint8_t kSolid = 0, kEmpty = 1, kUnknown = 2;
 };
 
 /// Whether a cell is empty. Beyond the bounding box, for which -1 stands, all is solid.
@@ -233,6 +239,21 @@ inline bool is_empty(const CellComplex& complex, const std::vector<std::uint8_t>
   return face >= 0 && is_empty(label, complex.cell(static_cast<std::size_t>(face), layer));
 }
 
+inline bool is_unknown(const std::vector<std::uint8_t>& label, std::size_t cell) {
+  return label[cell] == Label::kUnknown;
+}
+
+/// Labels in their order: 0 solid (also for -1), 1 unknown, 2 empty.
+inline int emptiness(const std::vector<std::uint8_t>& label, std::int64_t cell) {
+  const std::uint8_t of = cell < 0 ? Label::kSolid : label[static_cast<std::size_t>(cell)];
+  return of == Label::kEmpty ? 2 : of == Label::kUnknown ? 1 : 0;
+}
+inline int emptiness(const CellComplex& complex, const std::vector<std::uint8_t>& label, std::int32_t face,
+                     std::size_t layer) {
+  return emptiness(
+      label, face < 0 ? -1 : static_cast<std::int64_t>(complex.cell(static_cast<std::size_t>(face), layer)));
+}
+
 struct Labels {
   std::vector<std::uint8_t> label;       ///< Label per cell
   std::vector<float> margin_m3;          ///< energy that flipping this cell alone would cost [m^3]
@@ -242,11 +263,12 @@ struct Labels {
   std::int64_t repair_flips = 0;         ///< labels that the repair to a 2-manifold surface changed
 };
 
-/// To which storey and which room each cell belongs, numbered as in summary.json; -1 = solid. Cells that lie
-/// in a door have a storey, but no room.
+/// To which storey and which room each cell belongs, numbered as in summary.json; -1 = solid or unknown.
+/// Cells that lie in a door have a storey, but no room.
 struct CellRooms {
   std::vector<std::int16_t> storey;
   std::vector<std::int32_t> room;
+  std::vector<std::int32_t> unknown_space;  ///< its number in summary.json; -1 = part of none
 };
 
 }  // namespace roomcut

@@ -153,6 +153,7 @@ DataTerms read_data_terms(const std::filesystem::path& path, const CellsFile& ce
   terms.thin = read_share(file, "cell/thin", count);
   terms.line_of_sight = read_share(file, "cell/line_of_sight", count);
   terms.observed = read_share(file, "cell/observed", count);
+  terms.closed = read_share(file, "cell/closed", count);
   terms.beta = read_share(file, "cell/beta", count);
   const Sizes sizes(cells.complex);
   terms.wall_implied = read_share(file, "wall/implied", sizes.walls);
@@ -183,6 +184,7 @@ bool write_data_terms(const std::filesystem::path& path, const DataTerms& terms,
   write_share(file, "cell/line_of_sight", terms.line_of_sight, count,
               "share of the cell that the scanners looked through; 0 where no position is known");
   write_share(file, "cell/observed", terms.observed, count, "share of the rays that end on a seen face");
+  write_share(file, "cell/closed", terms.closed, count, "share of the level rays that end on a seen face");
   write_share(file, "cell/beta", terms.beta, count, "probability that the cell is empty");
   require_size(terms.d_empty.size(), count, "cell/d_empty");
   require_size(terms.d_solid.size(), count, "cell/d_solid");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -85,6 +86,18 @@ void for_each_interface_of(const CellComplex& complex, std::size_t cell, F&& f) 
 /// Whether the labelling has a surface at this face: one side empty, the other solid.
 inline bool is_surface(const Interface& face, const std::vector<std::uint8_t>& label) {
   return is_empty(label, face.a) != is_empty(label, face.b);
+}
+
+/// The labels of the model itself, which has two sides only: what is unknown is solid.
+inline std::vector<std::uint8_t> labels_of_model(std::vector<std::uint8_t> label) {
+  std::replace(label.begin(), label.end(), Label::kUnknown, Label::kSolid);
+  return label;
+}
+
+/// Whether the labels differ at this face. Unlike is_surface() also where unknown meets empty or solid: what
+/// stands there matters once more is known.
+inline bool separates(const Interface& face, const std::vector<std::uint8_t>& label) {
+  return emptiness(label, face.a) != emptiness(label, face.b);
 }
 
 /// All faces of the model's surface, in the order of for_each_interface().

@@ -12,7 +12,7 @@ Labels read_labels(const std::filesystem::path& path, const CellsFile& cells) {
   labels.label = file.read<std::uint8_t>("cell/label", {count});
   labels.margin_m3 = file.read<float>("cell/margin", {count});
   labels.unobserved = file.read<std::uint8_t>("cell/unobserved", {count});
-  check_range(file, "cell/label", labels.label, 0, 1);
+  check_range(file, "cell/label", labels.label, 0, 2);
   check_range(file, "cell/margin", labels.margin_m3, -1e30, 1e30);
   check_range(file, "cell/unobserved", labels.unobserved, 0, 1);
   labels.energy_m3 = file.attribute_double("/", "energy_m3");
@@ -34,7 +34,8 @@ bool write_labels(const std::filesystem::path& path, const Labels& labels, const
   file.attribute("/", "data_m3", labels.data_m3);
   file.attribute("/", "boundary_m3", labels.boundary_m3);
   file.attribute("/", "repair_flips", labels.repair_flips);
-  file.write("cell/label", labels.label, "1", "1 = empty (a room's air), 0 = solid");
+  file.write("cell/label", labels.label, "1",
+             "1 = empty (a room's air), 0 = solid, 2 = unknown: neither, out of the model");
   file.write("cell/margin", labels.margin_m3, "m^3", "energy that flipping this cell alone would cost");
   file.write("cell/unobserved", labels.unobserved, "1",
              "1 = too little evidence: labelled, but not to be trusted");

@@ -15,6 +15,8 @@ CellRooms read_rooms(const std::filesystem::path& path, const CellsFile& cells) 
       read_in_range<std::int16_t>(file, "cell/storey", {count}, -1, std::numeric_limits<std::int16_t>::max());
   rooms.room =
       read_in_range<std::int32_t>(file, "cell/room", {count}, -1, std::numeric_limits<std::int32_t>::max());
+  rooms.unknown_space = read_in_range<std::int32_t>(file, "cell/unknown_space", {count}, -1,
+                                                    std::numeric_limits<std::int32_t>::max());
   return rooms;
 }
 
@@ -22,10 +24,13 @@ bool write_rooms(const std::filesystem::path& path, const CellRooms& rooms, cons
                  const Provenance& provenance) {
   require_size(rooms.storey.size(), cells.complex.cells(), "cell/storey");
   require_size(rooms.room.size(), cells.complex.cells(), "cell/room");
+  require_size(rooms.unknown_space.size(), cells.complex.cells(), "cell/unknown_space");
   H5Writer file(path, artefacts::kRooms, provenance, cells.complex.frame);
   file.attribute("/", kCellsDigest, cells.payload_sha256);
-  file.write("cell/storey", rooms.storey, "1", "storey of summary.json; -1 = solid");
-  file.write("cell/room", rooms.room, "1", "room of summary.json; -1 = solid, or in a door");
+  file.write("cell/storey", rooms.storey, "1", "storey of summary.json; -1 = solid or unknown");
+  file.write("cell/room", rooms.room, "1", "room of summary.json; -1 = solid, unknown, or in a door");
+  file.write("cell/unknown_space", rooms.unknown_space, "1",
+             "unknown space of summary.json; -1 = part of none");
   return file.commit();
 }
 

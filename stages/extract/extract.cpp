@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/cells/interfaces.h"
 #include "common/errors/codes.h"
 #include "stages/extract/cell_surface.h"
 #include "stages/extract/cut_openings.h"
@@ -72,6 +73,7 @@ CellRooms rooms_of_whole_cells(const Labels& labels, const OpenableComplex& cut,
   CellRooms out;
   out.storey.assign(labels.label.size(), -1);
   out.room.assign(labels.label.size(), -1);
+  out.unknown_space.assign(labels.label.size(), -1);
   std::vector<std::pair<bool, double>> best(labels.label.size());  // whether it lies in a room, volume
   for (std::size_t part = 0; part < cut.whole.size(); ++part) {
     const std::size_t whole = cut.whole[part];
@@ -93,8 +95,10 @@ Model extract_model(const CellComplex& complex, const Labels& labels, const std:
     throw StageError(errors::kEmptyModel, "", "every cell is solid: there is no room to model",
                      "look at the labels' evidence; a smaller graphcut.mu_m lets smaller spaces survive");
   }
+  Labels model_labels = labels;
+  model_labels.label = labels_of_model(labels.label);
   // Storeys and rooms are those of the closed walls; then the openings become empty.
-  OpenableComplex cut = cut_openings(complex, labels, openings);
+  OpenableComplex cut = cut_openings(complex, model_labels, openings);
   Storeys storeys = find_storeys(cut.complex, cut.labels.label, params.storeys);
   Model model;
   model.refused = std::move(cut.refused);
@@ -108,7 +112,7 @@ Model extract_model(const CellComplex& complex, const Labels& labels, const std:
       storeys.of_cell[cell] = static_cast<std::int16_t>(model.openings[i].storey);
     }
   }
-  model.cell_rooms = rooms_of_whole_cells(labels, cut, storeys, rooms);
+  model.cell_rooms = rooms_of_whole_cells(model_labels, cut, storeys, rooms);
   model.empty_m3 = empty_volume(cut.complex, cut.labels.label);
   const FacetSurface facets = surface_of_labels(cut.complex, cut.labels.label, storeys);
   model.surface = merge_facets(facets);
@@ -123,6 +127,14 @@ Model extract_model(const CellComplex& complex, const Labels& labels, const std:
     }
   }
   return model;
+}
+
+void list_unknown_spaces(const CellComplex& complex, const Labels& labels, const FaceWeights& weights,
+                         const DataTerms& terms, const ExtractParams& params, Model& model) {
+  UnknownSpaces unknown =
+      find_unknown_spaces(complex, labels, weights, terms, model.cell_rooms, model.storeys, params.storeys);
+  model.unknown_spaces = std::move(unknown.spaces);
+  model.cell_rooms.unknown_space = std::move(unknown.of_cell);
 }
 
 }  // namespace roomcut::extract

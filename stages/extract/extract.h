@@ -12,6 +12,7 @@
 #include "stages/extract/params.h"
 #include "stages/extract/rooms.h"
 #include "stages/extract/storeys.h"
+#include "stages/extract/unknown_spaces.h"
 
 namespace roomcut::extract {
 
@@ -34,6 +35,7 @@ struct Model {
   std::vector<Space> storeys;  ///< ascending
   std::vector<Space> rooms;    ///< by storey, then by volume; without the openings between them
   CellRooms cell_rooms;  ///< of the given complex: a cell that openings cut has those of its largest part
+  std::vector<UnknownSpace> unknown_spaces;  ///< by storey, then by volume: no part of the surface
   std::vector<ModelOpening> openings;
   std::vector<std::string> refused;  ///< "o0007: why": openings that do not fit the labels
   SurfaceAreas areas;
@@ -50,5 +52,10 @@ struct Model {
 /// Throws StageError(kEmptyModel) when no cell is empty.
 Model extract_model(const CellComplex& complex, const Labels& labels, const std::vector<Opening>& openings,
                     const ExtractParams& params);
+
+/// Lists the unknown spaces of the labels that the model was extracted from, in model.unknown_spaces and
+/// model.cell_rooms.
+void list_unknown_spaces(const CellComplex& complex, const Labels& labels, const FaceWeights& weights,
+                         const DataTerms& terms, const ExtractParams& params, Model& model);
 
 }  // namespace roomcut::extract

@@ -15,7 +15,7 @@ using namespace roomcut::extract;
 StageInfo info() {
   StageInfo stage;
   stage.name = "extract";
-  stage.revision = 5;
+  stage.revision = 6;
   stage.summary = "Turns the labelled cells into a closed model: model.ply, model.obj, summary.json";
   stage.inputs = {{"cells", "Cell decomposition"},
                   {"weights", "Evidence on the faces"},
@@ -36,14 +36,14 @@ std::filesystem::path rejected_path(std::filesystem::path path) {
 
 void body(StageRun& run, const ExtractParams& params) {
   const CellsFile cells = read_cells(run.input("cells"));
-  read_weights(run.input("weights"), cells);  // refuses files that do not belong together
-  read_data_terms(run.input("terms"), cells);
+  const FaceWeights weights = read_weights(run.input("weights"), cells);
+  const DataTerms terms = read_data_terms(run.input("terms"), cells);
   const Labels labels = read_labels(run.input("labels"), cells);
   std::vector<Opening> openings;
   if (run.has_input("openings")) {
     openings = read_openings(run.input("openings"), cells.payload_sha256).content.openings;
   }
-  const Model model = extract_model(cells.complex, labels, openings, params);
+  Model model = extract_model(cells.complex, labels, openings, params);
   const std::filesystem::path rejected = rejected_path(run.output("ply"));
   if (!model.fault.empty()) {
     write_model_ply(rejected, model, cells.complex.frame);
@@ -51,6 +51,7 @@ void body(StageRun& run, const ExtractParams& params) {
                      "the model fails its check: " + model.fault,
                      "please report it with " + rejected.string() + " and the .h5 files beside the labels");
   }
+  list_unknown_spaces(cells.complex, labels, weights, terms, params, model);
   write_rooms(run.output("rooms"), model.cell_rooms, cells, run.provenance());
   write_model_ply(run.output("ply"), model, cells.complex.frame);
   write_model_obj(run.output("obj"), model, cells.complex.frame);
@@ -58,6 +59,7 @@ void body(StageRun& run, const ExtractParams& params) {
   std::filesystem::remove(rejected);
   run.count("storeys", static_cast<double>(model.storeys.size()));
   run.count("rooms", static_cast<double>(model.rooms.size()));
+  run.count("unknown spaces", static_cast<double>(model.unknown_spaces.size()));
   run.count("openings", static_cast<double>(model.openings.size()));
   for (const std::string& refused : model.refused) {
     run.warn("opening " + refused + "; it stays closed");

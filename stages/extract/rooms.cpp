@@ -10,73 +10,24 @@ namespace roomcut::extract {
 
 namespace {
 
-// Group per cell: -1 = solid; groups numbered from 0 by their first cell.
-struct Groups {
-  std::vector<std::int32_t> of_cell;
-  std::int32_t count = 0;
-};
-
-std::vector<std::vector<std::int32_t>> neighbours_in_plan(const CellComplex& complex) {
-  std::vector<std::vector<std::int32_t>> neighbours(complex.faces());
-  for (const CellComplex::Edge& edge : complex.edges) {
-    if (edge.left >= 0 && edge.right >= 0) {
-      neighbours[static_cast<std::size_t>(edge.left)].push_back(edge.right);
-      neighbours[static_cast<std::size_t>(edge.right)].push_back(edge.left);
-    }
-  }
-  return neighbours;
-}
-
-Groups connect(const CellComplex& complex, const Labels& labels, const Storeys& storeys) {
-  const auto neighbours = neighbours_in_plan(complex);
-  Groups groups;
-  groups.of_cell.assign(complex.cells(), -1);
-  std::vector<std::size_t> open;
-  for (std::size_t seed = 0; seed < complex.cells(); ++seed) {
-    if (!is_empty(labels.label, seed) || groups.of_cell[seed] >= 0) {
-      continue;
-    }
-    const std::int32_t group = groups.count++;
-    const auto reach = [&](std::size_t cell) {
-      if (is_empty(labels.label, cell) && groups.of_cell[cell] < 0 &&
-          storeys.of_cell[cell] == storeys.of_cell[seed]) {
-        groups.of_cell[cell] = group;
-        open.push_back(cell);
-      }
-    };
-    reach(seed);
-    while (!open.empty()) {
-      const std::size_t cell = open.back();
-      open.pop_back();
-      const std::size_t face = complex.face_of(cell);
-      const std::size_t layer = complex.layer_of(cell);
-      for (const std::int32_t beside : neighbours[face]) {
-        reach(complex.cell(static_cast<std::size_t>(beside), layer));
-      }
-      if (layer > 0) reach(complex.cell(face, layer - 1));
-      if (layer + 1 < complex.layers()) reach(complex.cell(face, layer + 1));
-    }
-  }
-  return groups;
-}
-
 double largest(const std::map<std::size_t, double>& area_of_level, const std::vector<double>& levels) {
   const auto best = std::max_element(area_of_level.begin(), area_of_level.end(),
                                      [](const auto& a, const auto& b) { return a.second < b.second; });
   return best == area_of_level.end() ? 0 : levels[best->first];
 }
 
-std::vector<Space> measure(const CellComplex& complex, const Labels& labels, const Storeys& storeys,
-                           const Groups& groups) {
-  const auto count = static_cast<std::size_t>(groups.count);
+}  // namespace
+
+std::vector<Space> measure_pieces(const CellComplex& complex, const Labels& labels,
+                                  const CellPieces& pieces) {
+  const auto count = static_cast<std::size_t>(pieces.count);
   std::vector<Space> spaces(count);
   std::vector<std::map<std::size_t, double>> floors(count), ceilings(count);
   std::vector<std::int32_t> last_face(count, -1);
-  for_each_run(complex, labels.label, [&](std::size_t face, std::size_t first, std::size_t last) {
-    const auto group = static_cast<std::size_t>(groups.of_cell[complex.cell(face, first)]);
+  for_each_stack(complex, pieces.of_cell, [&](std::size_t face, std::size_t first, std::size_t last) {
+    const auto group = static_cast<std::size_t>(pieces.of_cell[complex.cell(face, first)]);
     Space& space = spaces[group];
     const double area = complex.area(face);
-    space.storey = storeys.of_cell[complex.cell(face, first)];
     floors[group][first] += area;
     ceilings[group][last] += area;
     space.volume_m3 += area * (complex.levels[last] - complex.levels[first]);
@@ -101,11 +52,19 @@ std::vector<Space> measure(const CellComplex& complex, const Labels& labels, con
   return spaces;
 }
 
-}  // namespace
-
 Rooms find_rooms(const CellComplex& complex, const Labels& labels, const Storeys& storeys) {
-  const Groups groups = connect(complex, labels, storeys);
-  const std::vector<Space> spaces = measure(complex, labels, storeys, groups);
+  const CellPieces groups = connected_pieces(
+      complex, [&](std::size_t cell) { return is_empty(labels.label, cell); },
+      [&](const Interface& face) {
+        return storeys.of_cell[static_cast<std::size_t>(face.a)] ==
+               storeys.of_cell[static_cast<std::size_t>(face.b)];
+      });
+  std::vector<Space> spaces = measure_pieces(complex, labels, groups);
+  for (std::size_t cell = 0; cell < complex.cells(); ++cell) {
+    if (groups.of_cell[cell] >= 0) {
+      spaces[static_cast<std::size_t>(groups.of_cell[cell])].storey = storeys.of_cell[cell];
+    }
+  }
   std::vector<std::int32_t> order(spaces.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](std::int32_t i, std::int32_t k) {
@@ -126,10 +85,14 @@ Rooms find_rooms(const CellComplex& complex, const Labels& labels, const Storeys
 }
 
 std::vector<Space> measure_storeys(const CellComplex& complex, const Labels& labels, const Storeys& storeys) {
-  Groups groups;
+  CellPieces groups;
   groups.of_cell.assign(storeys.of_cell.begin(), storeys.of_cell.end());
   groups.count = static_cast<std::int32_t>(storeys.floor_z.size());
-  return measure(complex, labels, storeys, groups);
+  std::vector<Space> spaces = measure_pieces(complex, labels, groups);
+  for (std::size_t i = 0; i < spaces.size(); ++i) {
+    spaces[i].storey = static_cast<int>(i);
+  }
+  return spaces;
 }
 
 }  // namespace roomcut::extract

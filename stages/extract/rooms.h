@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/cells/cell_complex.h"
+#include "common/cells/cell_pieces.h"
 #include "stages/extract/storeys.h"
 
 namespace roomcut::extract {
@@ -20,6 +21,9 @@ struct Space {
   Vec2 centre{0, 0};         ///< of its plan's area; may lie outside an L
   double height() const { return area_m2 > 0 ? volume_m3 / area_m2 : 0; }  ///< mean clear height [m]
 };
+
+/// What the pieces measure, whose storeys are not set yet.
+std::vector<Space> measure_pieces(const CellComplex& complex, const Labels& labels, const CellPieces& pieces);
 
 struct Rooms {
   std::vector<Space> spaces;          ///< by storey, then by volume, largest first

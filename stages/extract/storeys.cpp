@@ -7,6 +7,15 @@
 
 namespace roomcut::extract {
 
+std::int16_t storey_of_run(const std::vector<double>& floor_z, double bottom, double top, double gap_m) {
+  for (std::size_t i = floor_z.size(); i-- > 1;) {
+    if (floor_z[i] <= bottom + gap_m / 2 && floor_z[i] < top) {
+      return static_cast<std::int16_t>(i);
+    }
+  }
+  return 0;
+}
+
 namespace {
 
 std::vector<double> floor_area_per_level(const CellComplex& complex, const std::vector<std::uint8_t>& label) {
@@ -14,15 +23,6 @@ std::vector<double> floor_area_per_level(const CellComplex& complex, const std::
   for_each_run(complex, label,
                [&](std::size_t face, std::size_t first, std::size_t) { area[first] += complex.area(face); });
   return area;
-}
-
-std::int16_t storey_of_run(const std::vector<double>& floor_z, double bottom, double top, double gap) {
-  for (std::size_t i = floor_z.size(); i-- > 1;) {
-    if (floor_z[i] <= bottom + gap / 2 && floor_z[i] < top) {
-      return static_cast<std::int16_t>(i);
-    }
-  }
-  return 0;
 }
 
 std::vector<double> seeds(const std::vector<double>& levels, const std::vector<double>& area, double gap) {

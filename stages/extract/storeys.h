@@ -28,6 +28,27 @@ struct Storeys {
 Storeys find_storeys(const CellComplex& complex, const std::vector<std::uint8_t>& label,
                      const StoreyParams& params);
 
+/// The storey of a run between two heights, of storeys whose floors are given, ascending [m].
+std::int16_t storey_of_run(const std::vector<double>& floor_z, double bottom, double top, double gap_m);
+
+/// Calls f(face, first layer, one past the last layer) for every stack of cells of one piece without a gap,
+/// by plan face and height; `piece` per cell, -1 = none.
+template <class F>
+void for_each_stack(const CellComplex& complex, const std::vector<std::int32_t>& piece, F&& f) {
+  for (std::size_t face = 0; face < complex.faces(); ++face) {
+    for (std::size_t k = 0; k < complex.layers();) {
+      const std::size_t first = k;
+      const std::int32_t of = piece[complex.cell(face, k)];
+      while (k < complex.layers() && piece[complex.cell(face, k)] == of) {
+        ++k;
+      }
+      if (of >= 0) {
+        f(face, first, k);
+      }
+    }
+  }
+}
+
 /// Calls f(face, first layer, one past the last layer) for every run, by plan face and height.
 template <class F>
 void for_each_run(const CellComplex& complex, const std::vector<std::uint8_t>& label, F&& f) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <string>
 
 #include "common/artefact/json_values.h"
 #include "common/geometry/scan_coordinates.h"
@@ -20,6 +22,42 @@ Json space_json(const Space& space, const ScanCoordinates& scan) {
           {"area_m2", space.area_m2},
           {"volume_m3", space.volume_m3},
           {"unobserved_m3", space.unobserved_m3}};
+}
+
+std::string percent(double share) {
+  return std::to_string(std::lround(100 * share)) + " %";
+}
+
+std::string why(const UnknownSpace& space) {
+  const std::string evidence = "of what lies around it " + percent(space.seen_inside) +
+                               " was seen from inside, " + percent(space.closed) +
+                               " of the directions all around are closed";
+  return (space.is_closed() ? "a room that nobody entered, or structure: " : "a room, or open air: ") +
+         evidence;
+}
+
+std::string to_know(const UnknownSpace& space) {
+  if (space.beside.empty()) {
+    return "scan from inside it";
+  }
+  return "scan from inside it; it lies beside room " + std::to_string(space.beside.front().room);
+}
+
+Json unknown_json(const UnknownSpace& space, const ScanCoordinates& scan) {
+  Json json = space_json(space.measures, scan);
+  const Vec3 place = scan.to_scan(Vec3(space.place.x(), space.place.y(), space.measures.floor_z));
+  json["storey"] = space.measures.storey;
+  json["place_m"] = {place.x(), place.y(), place.z()};
+  json["seen_inside"] = space.seen_inside;
+  json["closed"] = space.closed;
+  json["probability_empty"] = space.probability;
+  json["beside"] = Json::array();
+  for (const SharedWall& wall : space.beside) {
+    json["beside"].push_back({{"room", wall.room}, {"wall_m2", wall.area_m2}});
+  }
+  json["why"] = why(space);
+  json["to_know"] = to_know(space);
+  return json;
 }
 
 Json opening_json(const ModelOpening& item, const ScanCoordinates& scan) {
@@ -67,6 +105,14 @@ Json summary_json(const Model& model, const CellComplex& complex, const Labels& 
     room["storey"] = space.storey;
     rooms.push_back(std::move(room));
   }
+  Json unknown = Json::array();
+  double unknown_m3 = 0;
+  for (const UnknownSpace& space : model.unknown_spaces) {
+    Json item = unknown_json(space, scan);
+    item["unknown_space"] = unknown.size();
+    unknown.push_back(std::move(item));
+    unknown_m3 += space.measures.volume_m3;
+  }
   Json openings = Json::array();
   for (const ModelOpening& opening : model.openings) {
     openings.push_back(opening_json(opening, scan));
@@ -80,6 +126,7 @@ Json summary_json(const Model& model, const CellComplex& complex, const Labels& 
   return {
       {"storeys", storeys},
       {"rooms", rooms},
+      {"unknown_spaces", unknown},
       {"openings", openings},
       {"totals",
        {{"area_m2", area},
@@ -87,6 +134,7 @@ Json summary_json(const Model& model, const CellComplex& complex, const Labels& 
         {"floor_m2", model.areas.floor},
         {"ceiling_m2", model.areas.ceiling},
         {"wall_m2", model.areas.wall},
+        {"unknown_m3", unknown_m3},
         {"unobserved_empty_m3", model.unobserved_empty_m3},
         {"unobserved_solid_m3", model.unobserved_solid_m3}}},
       {"energy",

@@ -9,11 +9,11 @@
 
 namespace roomcut::graphcut {
 
-namespace {
-
-double quantised(double value) {
-  return std::nearbyint(value / EnergyTerms::kQuantum_m3) * EnergyTerms::kQuantum_m3;
+double quantised(double value_m3) {
+  return std::nearbyint(value_m3 / EnergyTerms::kQuantum_m3) * EnergyTerms::kQuantum_m3;
 }
+
+namespace {
 
 /// What is charged of a face of which `omega` was seen.
 double unseen(double omega, double free_from) {

@@ -24,6 +24,9 @@ struct EnergyTerms {
   std::vector<double> wall, level;       ///< per wall face and level face: cost when its sides differ [m^3]
 };
 
+/// A term as EnergyTerms holds it, rounded to kQuantum.
+double quantised(double value_m3);
+
 /// Throws std::logic_error when weights or terms do not fit the complex.
 EnergyTerms energy_terms(const CellComplex& complex, const FaceWeights& weights, const DataTerms& terms,
                          const GraphcutParams& params);

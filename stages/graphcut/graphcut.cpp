@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages/graphcut/graphcut.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 #include "common/cells/interfaces.h"
 #include "common/cells/manifold_check.h"
 #include "common/errors/codes.h"
+#include "stages/graphcut/doubt.h"
 #include "stages/graphcut/energy.h"
 #include "stages/graphcut/label_repair.h"
 #include "stages/graphcut/max_flow.h"
@@ -21,9 +24,32 @@ std::string text(const char* format, double a, double b = 0, double c = 0) {
   return buffer;
 }
 
+/// The labels before the repair, as params.unknown wants them.
+std::vector<std::uint8_t> answered(const CellComplex& complex, const FaceWeights& weights,
+                                   const DataTerms& terms, const EnergyTerms& energy, const Cut& cut,
+                                   const GraphcutParams& params) {
+  if (params.unknown == "decided") {
+    return cut.label;
+  }
+  std::vector<std::uint8_t> label = doubtful_labels(complex, weights, terms, energy, cut.label, params.doubt);
+  if (params.unknown == "rooms") {
+    std::replace(label.begin(), label.end(), Label::kUnknown, Label::kEmpty);
+  }
+  return label;
+}
+
+/// What the repair left solid stays unknown where it was.
+void keep_unknown(const std::vector<std::uint8_t>& before, std::vector<std::uint8_t>& label) {
+  for (std::size_t c = 0; c < label.size(); ++c) {
+    if (is_unknown(before, c) && !is_empty(label, c)) {
+      label[c] = Label::kUnknown;
+    }
+  }
+}
+
 /// Says why nothing was worth cutting out: what spoke for empty space, and what the faces were worth.
 [[noreturn]] void give_up(const CellComplex& complex, const FaceWeights& weights, const DataTerms& terms,
-                          const GraphcutParams& params) {
+                          const GraphcutParams& params, double unknown_m3) {
   double leaning = 0;
   double gain = 0;
   for (std::size_t c = 0; c < complex.cells(); ++c) {
@@ -41,13 +67,15 @@ std::string text(const char* format, double a, double b = 0, double c = 0) {
   });
   throw StageError(
       errors::kEmptyModel, "graphcut",
-      "every cell is solid: " +
+      std::string(unknown_m3 > 0 ? "no cell is surely empty: " + text("%.3g m^3 are unknown; ", unknown_m3)
+                                 : "every cell is solid: ") +
           text("%.3g m^3 lean towards empty and would gain %.3g m^3 of energy, no surface around them is "
                "that cheap; ",
                leaning, gain) +
           text("%.3g of %.3g m^2 of all faces are covered by points", covered, area),
-      gain > 0 ? text("lower graphcut.mu_m (now %.3g)", params.mu_m) + "; see the pictures of the data term"
-               : "see the counts of weigh_faces and raycast: no cell has evidence of being a room");
+      unknown_m3 > 0 ? "graphcut.unknown: rooms makes rooms of them; see the pictures of the labels"
+      : gain > 0 ? text("lower graphcut.mu_m (now %.3g)", params.mu_m) + "; see the pictures of the data term"
+                 : "see the counts of weigh_faces and raycast: no cell has evidence of being a room");
 }
 
 void rate_cells(const CellComplex& complex, const EnergyTerms& energy, const DataTerms& terms,
@@ -63,6 +91,9 @@ void rate_cells(const CellComplex& complex, const EnergyTerms& energy, const Dat
       ++result.empty_cells;
       result.empty_m3 += volume;
       result.unobserved_empty_m3 += labels.unobserved[c] != 0 ? volume : 0;
+    } else if (is_unknown(labels.label, c)) {
+      ++result.unknown_cells;
+      result.unknown_m3 += complex.volume(c);
     }
   }
 }
@@ -74,12 +105,15 @@ Graphcut graphcut(const CellComplex& complex, const FaceWeights& weights, const 
   const EnergyTerms energy = energy_terms(complex, weights, terms, params);
   const Cut cut = minimum_cut(complex, energy);
   const ManifoldCheck check(complex);
-  Repair repair = repair_labels(check, energy, cut.label);
+  const std::vector<std::uint8_t> label = answered(complex, weights, terms, energy, cut, params);
+  const std::vector<std::uint8_t> model = labels_of_model(label);
+  Repair repair = repair_labels(check, energy, model);
+  keep_unknown(label, repair.label);
 
   Graphcut result;
   result.cut_m3 = cut.flow_m3;
   result.repair_m3 = repair.added_m3;
-  result.bad_places = static_cast<std::int64_t>(check.find_all(cut.label).size());
+  result.bad_places = static_cast<std::int64_t>(check.find_all(model).size());
   result.labels.label = std::move(repair.label);
   result.labels.repair_flips = repair.flips;
   const Energy parts = energy_of(complex, energy, result.labels.label);
@@ -88,7 +122,7 @@ Graphcut graphcut(const CellComplex& complex, const FaceWeights& weights, const 
   result.labels.energy_m3 = parts.total_m3();
   rate_cells(complex, energy, terms, params, result);
   if (result.empty_cells == 0) {
-    give_up(complex, weights, terms, params);
+    give_up(complex, weights, terms, params, result.unknown_m3);
   }
   return result;
 }

@@ -11,8 +11,8 @@ using namespace roomcut::graphcut;
 StageInfo info() {
   StageInfo stage;
   stage.name = "graphcut";
-  stage.revision = 3;
-  stage.summary = "Labels every cell empty or solid by one exact minimum cut";
+  stage.revision = 4;
+  stage.summary = "Labels every cell empty, solid or unknown by exact minimum cuts";
   stage.inputs = {{"cells", "The cell complex"},
                   {"weights", "Coverage of its faces"},
                   {"terms", "Data term of its cells"}};
@@ -31,6 +31,7 @@ void body(StageRun& run, const GraphcutParams& params) {
   run.count("empty cells", static_cast<double>(result.empty_cells));
   run.count("empty", result.empty_m3, "m^3");
   run.count("of it unobserved", result.unobserved_empty_m3, "m^3");
+  run.count("unknown", result.unknown_m3, "m^3");
   run.count("energy", result.labels.energy_m3, "m^3");
   run.count("data term", result.labels.data_m3, "m^3");
   run.count("surface term", result.labels.boundary_m3, "m^3");

@@ -34,6 +34,7 @@ void store(const CellEvidence& e, std::size_t c, DataTerms& terms) {
   terms.thin[c] = between(0, e.thin(), 1);
   terms.line_of_sight[c] = between(0, e.carved, 1);
   terms.observed[c] = between(0, e.around.front + e.around.back, 1);
+  terms.closed[c] = between(0, 1 - e.level.nothing(), 1);
 }
 
 /// Names and weights, with room for the values.

@@ -59,7 +59,7 @@ Loads find_loads(const CellComplex& complex, const FaceWeights& weights,
     }
     const CellComplex::Edge& edge = complex.edges[complex.edge_of_wall(face.index)];
     const float seen = weights.wall_omega[face.index];
-    const bool surface = is_surface(face, label);
+    const bool surface = separates(face, label);
     if (edge.line < 0 || (!surface && !weights.is_surely_wall(face.index))) {
       return;
     }

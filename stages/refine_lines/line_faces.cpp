@@ -15,7 +15,7 @@ constexpr double kShortestBin_m = 0.02;
 struct Piece {
   std::size_t layer;
   double t0, t1;
-  bool towards_normal;  ///< the empty side
+  bool towards_normal;  ///< the empty side, or the emptier one
 };
 
 std::vector<std::vector<Piece>> find_pieces(const CellComplex& complex,
@@ -33,12 +33,13 @@ std::vector<std::vector<Piece>> find_pieces(const CellComplex& complex,
       if (!carried.empty() && !carried[static_cast<std::size_t>(edge.line)].holds(layer, 0.5 * (from + to))) {
         continue;
       }
-      const bool left = is_empty(complex, label, edge.left, layer);
-      if (left != is_empty(complex, label, edge.right, layer)) {
+      const int left = emptiness(complex, label, edge.left, layer);
+      const int right = emptiness(complex, label, edge.right, layer);
+      if (left != right) {
         // The normal is the direction turned by -90 degrees: it points to the right of an edge that runs
         // along it.
         pieces[static_cast<std::size_t>(edge.line)].push_back(
-            {layer, std::min(from, to), std::max(from, to), left != (to > from)});
+            {layer, std::min(from, to), std::max(from, to), (left > right) != (to > from)});
       }
     }
   }

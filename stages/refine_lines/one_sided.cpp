@@ -87,7 +87,7 @@ std::vector<OneSidedWall> find_one_sided(const CellComplex& complex, const FaceW
       const FaceSide side = weights.wall_side(w);
       const bool front_left = side == FaceSide::kLeft;
       if (!weights.is_surely_wall(w) || side == FaceSide::kUnclear ||
-          !is_empty(complex, label, left, layer) || !is_empty(complex, label, right, layer)) {
+          emptiness(complex, label, left, layer) == 0 || emptiness(complex, label, right, layer) == 0) {
         continue;
       }
       const bool back_is_plus = front_left != left_is_plus(complex, edge);
