@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
-#include <utility>
 #include <vector>
 
 #include "common/cells/interfaces.h"
@@ -37,8 +36,9 @@ CellPieces connected_pieces(const CellComplex& complex, Member&& member, Joined&
     const auto a = static_cast<std::size_t>(face.a);
     const auto b = static_cast<std::size_t>(face.b);
     if (member(a) && member(b) && joined(face)) {
-      const auto [low, high] = std::minmax(root(a), root(b));
-      parent[high] = low;  // the first cell of a piece is its root
+      const std::size_t of_a = root(a);
+      const std::size_t of_b = root(b);
+      parent[std::max(of_a, of_b)] = std::min(of_a, of_b);  // the first cell of a piece is its root
     }
   });
   CellPieces pieces;
