@@ -141,6 +141,7 @@ void read_summary(const fs::path& path, RunFacts& run) {
   add("area_m2", "/totals/area_m2");
   add("volume_m3", "/totals/volume_m3");
   add("wall_m2", "/totals/wall_m2");
+  add("unknown_m3", "/totals/unknown_m3");
   add("unobserved_empty_m3", "/totals/unobserved_empty_m3");
   add("unobserved_solid_m3", "/totals/unobserved_solid_m3");
   add("energy_m3", "/energy/total_m3");

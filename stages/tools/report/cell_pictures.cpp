@@ -11,7 +11,8 @@ namespace roomcut::report {
 
 namespace {
 
-constexpr Colour kUnobserved{228, 180, 206}, kSolid{225, 225, 225}, kRoom{245, 245, 245};
+constexpr Colour kUnobserved{228, 180, 206}, kUnknown{240, 228, 66}, kSolid{225, 225, 225},
+    kRoom{245, 245, 245};
 
 std::string cell_title(const DataTerms& terms, const Labels* labels, std::size_t cell) {
   char text[200];
@@ -23,7 +24,9 @@ std::string cell_title(const DataTerms& terms, const Labels* labels, std::size_t
   std::string title = text;
   if (labels != nullptr) {
     std::snprintf(text, sizeof text, "; %s%s, flipping it would cost %.2f m³",
-                  is_empty(labels->label, cell) ? "empty" : "solid",
+                  is_empty(labels->label, cell)     ? "empty"
+                  : is_unknown(labels->label, cell) ? "unknown"
+                                                    : "solid",
                   labels->unobserved[cell] != 0 ? " (unobserved)" : "", labels->margin_m3[cell]);
     title += text;
   }
@@ -90,7 +93,8 @@ Picture draw_cells(const std::string& stage, const CellComplex& complex, const D
     const double volume = complex.volume(cell);
     const double sure = std::clamp(labels.margin_m3[cell] / std::max(volume, 1e-9), 0.0, 1.0);
     const bool empty = is_empty(labels.label, cell);
-    const Colour fill = !empty                         ? kSolid
+    const Colour fill = is_unknown(labels.label, cell) ? kUnknown
+                        : !empty                       ? kSolid
                         : labels.unobserved[cell] != 0 ? kUnobserved
                                                        : diverging_colour(-0.25 - 0.6 * sure);
     return CellLook{fill, cell_title(terms, &labels, cell)};
@@ -98,7 +102,7 @@ Picture draw_cells(const std::string& stage, const CellComplex& complex, const D
   draw_edges(svg, complex, &labels, layer);
   return {stage, name_of(stage, layer), "Labels of the cells, " + heights_of(complex, layer),
           "Blue: empty, darker where the decision is surer. Grey: solid or outside. Pink: empty but hardly "
-          "observed. Black: walls.",
+          "observed. Yellow: unknown, a room or open air. Black: walls.",
           svg.str()};
 }
 

@@ -138,6 +138,7 @@ CellRooms rooms_of(const StageRun& run, const std::string& pass, const CellsFile
   for (std::size_t cell = 0; cell < cells.complex.cells(); ++cell) {
     rooms.storey.push_back(is_empty(labels.label, cell) ? 0 : -1);
     rooms.room.push_back(-1);
+    rooms.unknown_space.push_back(-1);
   }
   return rooms;
 }
@@ -161,6 +162,7 @@ bool add_cells(const StageRun& run, const std::string& pass, std::vector<PageBlo
   const CellRooms rooms = rooms_of(run, pass, cells, labels);
   block.add("storey", rooms.storey);
   block.add("room", rooms.room);
+  block.add("unknown_space", rooms.unknown_space);
   block.facts["energy"] = {{"total_m3", labels.energy_m3},
                            {"data_m3", labels.data_m3},
                            {"boundary_m3", labels.boundary_m3},

@@ -7,7 +7,7 @@ import { EditPanel } from "./edit/panel.js";
 import { findPlace } from "./edit/place.js";
 import { findServer } from "./edit/server.js";
 import { showModelPanel } from "./model/panel.js";
-import { PlanPanel, roomOf } from "./plan/panel.js";
+import { PlanPanel, roomOf, unknownSpaceOf } from "./plan/panel.js";
 import { whyCell, whyWallFace } from "./plan/why.js";
 import { showHistogram } from "./tables/histogram.js";
 import { showRooms } from "./tables/rooms.js";
@@ -49,7 +49,7 @@ function showFace(run, plan, cell, face) {
       },
     }),
     ...(face?.kind === kWall ? whyWallFace(complex, face.index - complex.wallFace(0, layer), layer) : []),
-    ...whyCell(complex, cell, roomOf(run, cell)),
+    ...whyCell(complex, cell, roomOf(run, cell), unknownSpaceOf(run, cell)),
   );
 }
 

@@ -3,6 +3,9 @@
 
 import { ScanCoordinates } from "./coordinates.js";
 
+/** The label of cells that are neither called a room nor denied (schemas/labels.md). */
+export const kUnknownLabel = 2;
+
 export class Complex {
   /** @param block the block `cells` @param scan where it lies in the scan's own coordinates */
   constructor(block, scan = new ScanCoordinates(null)) {

@@ -55,17 +55,20 @@ export function priceOf(block) {
   return { mu: block.graphcut?.mu_m ?? Number.NaN, freeFrom: block.graphcut?.free_from ?? Number.NaN };
 }
 
+/** 1 for empty, 0 for the rest: in the model's energy unknown cells are solid. */
+const sideOf = (block, cell) => (block.label[cell] === 1 ? 1 : 0);
+
 /** What flipping a cell alone would change: {data, boundary, total} [m^3], as graphcut's margin. */
 export function flipCost(complex, cell) {
   const { block } = complex;
   const price = priceOf(block);
-  const label = block.label[cell];
+  const label = sideOf(block, cell);
   const empty = block.evidence_d_empty[cell];
   const solid = block.evidence_d_solid[cell];
   const data = label === 1 ? solid - empty : empty - solid;
   let boundary = 0;
   for (const face of facesOf(complex, cell)) {
-    const other = face.beyond < 0 ? 0 : block.label[face.beyond];
+    const other = face.beyond < 0 ? 0 : sideOf(block, face.beyond);
     boundary += (other === label ? 1 : -1) * boundaryCost(face, price);
   }
   return { data, boundary, total: data + boundary };

@@ -24,24 +24,33 @@ export function paintOpenings(context, view) {
   }
 }
 
-/** Number and area of each room, in the middle of its largest cell of this layer. */
+/** The largest face in this layer of each of the spaces that `ofCell` numbers. */
+function largestFaces(complex, layer, ofCell) {
+  const largest = new Map();
+  for (let f = 0; layer >= 0 && f < complex.faces; ++f) {
+    const space = ofCell[complex.cell(f, layer)];
+    if (space >= 0 && !(complex.areas[f] <= (largest.has(space) ? complex.areas[largest.get(space)] : 0))) {
+      largest.set(space, f);
+    }
+  }
+  return largest;
+}
+
+/** Number and area of each room and each unknown space, in the middle of its largest cell of this layer. */
 export function paintRooms(context, view) {
   const { complex, storeys } = view.run;
   const { layer } = view.state.slice;
-  const largest = new Map();
-  for (let f = 0; layer >= 0 && f < complex.faces; ++f) {
-    const room = storeys.room[complex.cell(f, layer)];
-    if (room >= 0 && !(complex.areas[f] <= (largest.has(room) ? complex.areas[largest.get(room)] : 0))) {
-      largest.set(room, f);
-    }
-  }
+  const unknown = view.run.facts.summary?.unknown_spaces ?? [];
+  const places = [
+    ...[...largestFaces(complex, layer, storeys.room)].map(([room, face]) => [`room ${room}: ${storeys.rooms[room].area.toFixed(1)} m²`, face]),
+    ...[...largestFaces(complex, layer, complex.block.unknown_space ?? [])].map(([space, face]) => [`unknown ${space}: ${(unknown[space]?.area_m2 ?? 0).toFixed(1)} m²`, face]),
+  ];
   context.font = "12px system-ui, sans-serif";
   context.textAlign = "center";
-  for (const [room, face] of largest) {
+  for (const [words, face] of places) {
     const corners = complex.corners(face);
     const middle = [0, 1].map((axis) => corners.reduce((sum, corner) => sum + corner[axis], 0) / corners.length);
     const [x, y] = view.viewport.toPixels(middle);
-    const words = `room ${room}: ${storeys.rooms[room].area.toFixed(1)} m²`;
     context.fillStyle = "#ffffffc8";
     const width = context.measureText(words).width + 8;
     context.fillRect(x - width / 2, y - 10, width, 17);

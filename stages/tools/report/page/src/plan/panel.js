@@ -203,10 +203,16 @@ export class PlanPanel {
       return whyWallFace(complex, what.edge, what.layer);
     }
     if (what?.cell !== undefined) {
-      return whyCell(complex, what.cell, roomOf(this.run, what.cell));
+      return whyCell(complex, what.cell, roomOf(this.run, what.cell), unknownSpaceOf(this.run, what.cell));
     }
     return [make("p", { class: "quiet", text: "Click a cell, a wall or a line: here it says why it came out so." })];
   }
+}
+
+/** The unknown space of the summary that a cell belongs to, or null. */
+export function unknownSpaceOf(run, cell) {
+  const space = run.complex?.block.unknown_space?.[cell] ?? -1;
+  return run.facts.summary?.unknown_spaces?.[space] ?? null;
 }
 
 /** The room of the summary that a cell belongs to, or null. */

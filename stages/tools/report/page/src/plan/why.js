@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Why a cell came out empty or solid, in words and numbers.
 
+import { kUnknownLabel } from "../data/complex.js";
 import { boundaryCost, facesOf, flipCost, priceOf } from "../data/energy.js";
 import { make, number, short } from "../dom.js";
 
@@ -14,15 +15,16 @@ function table(head, rows) {
   return make("table", {}, make("tr", {}, ...head.map(cell("th"))), ...rows.map((row) => make("tr", {}, ...row.map(cell("td")))));
 }
 
-/** @returns {Element[]} what is known of a cell; `room` is its entry of the summary, or null */
-export function whyCell(complex, cell, room) {
+const labelName = (label) => (label === 1 ? "empty" : label === kUnknownLabel ? "unknown" : "solid");
+
+/** @returns {Element[]} what is known of a cell; `room` and `unknownSpace` are its entries of the summary, or null */
+export function whyCell(complex, cell, room, unknownSpace = null) {
   const { block } = complex;
   const layer = complex.layerOf(cell);
-  const empty = block.label[cell] === 1;
   const beta = block.evidence_beta?.[cell];
   const flip = flipCost(complex, cell);
   const parts = [
-    make("h3", { text: `Cell ${cell}: ${empty ? "empty" : "solid"}` }),
+    make("h3", { text: `Cell ${cell}: ${labelName(block.label[cell])}` }),
     make("p", {
       class: "quiet",
       text: `${number(complex.areas[complex.faceOf(cell)])} m² of the plan, ${complex.heightsOf(layer)} m, ${number(complex.volume(cell))} m³, ${block.cell_points[cell]} points inside.`,
@@ -31,10 +33,16 @@ export function whyCell(complex, cell, room) {
       text: `The evidence gives ${number(100 * beta, 1)} % for empty. Flipping this cell alone would cost ${number(block.margin[cell], 3)} m³ of energy.`,
     }),
   ];
+  if (block.label[cell] === kUnknownLabel) {
+    parts.push(make("p", { class: "warn", text: "Unknown: nobody saw enough of it to call it a room or to deny it. It is no part of the model; graphcut.unknown: rooms makes it one." }));
+  }
+  if (unknownSpace) {
+    parts.push(make("p", { text: `Part of unknown space ${unknownSpace.unknown_space} (${number(unknownSpace.area_m2)} m²): ${unknownSpace.why}. To know: ${unknownSpace.to_know}.` }));
+  }
   if (block.unobserved[cell] === 1) {
     parts.push(make("p", { class: "warn", text: "Unobserved: too little evidence. It has a label, but the label is not to be trusted." }));
   }
-  if (block.margin[cell] < 0) {
+  if (block.margin[cell] < 0 && block.label[cell] !== kUnknownLabel) {
     parts.push(make("p", { class: "warn", text: "The margin is negative: the repair to a closed surface overruled the cut here." }));
   }
   if (room) {
@@ -79,7 +87,7 @@ function beyondOf(complex, cell) {
     number(face.omega),
     number(face.implied),
     face.points,
-    face.beyond < 0 ? "outside" : block.label[face.beyond] === 1 ? "empty" : "solid",
+    face.beyond < 0 ? "outside" : labelName(block.label[face.beyond]),
     number(boundaryCost(face, price), 3),
   ]);
   return [
@@ -104,7 +112,7 @@ export function whyWallFace(complex, edge, layer) {
   return [
     make("h3", { text: `Wall face${wall ? ` on ${wall}` : ""}` }),
     make("p", {
-      text: `${number(length)} m long, ${number(length * complex.height(layer))} m². ${isLeft === isRight ? (isLeft ? "Open: both sides are empty." : "Inside: both sides are solid.") : "A wall of the model."}`,
+      text: `${number(length)} m long, ${number(length * complex.height(layer))} m². ${isLeft === isRight ? (isLeft ? "Open: both sides are empty." : "Inside: neither side is empty.") : "A wall of the model."}`,
     }),
     table(["", "value"], [
       ["ω, share covered by points", number(omega, 3)],

@@ -8,6 +8,7 @@ const kInterval = 1.96; // standard deviations of a 95 % interval
 
 const kNames = {
   room: "Room",
+  unknown_space: "Space",
   storey: "Storey",
   rooms: "Rooms",
   area_m2: "Area [m²]",
@@ -21,6 +22,13 @@ const kNames = {
   width_m: "Width [m]",
   sill_z_m: "Sill [m]",
   thickness_m: "Thickness of the wall [m]",
+  seen_inside: "Seen from inside",
+  closed: "Closed all around",
+  probability_empty: "Probability of empty",
+  place_m: "Place [m]",
+  beside: "Beside rooms",
+  why: "Why",
+  to_know: "To know",
 };
 const kOrder = Object.keys(kNames);
 const kUnits = [["_m2", " [m²]"], ["_m3", " [m³]"], ["_m", " [m]"]];
@@ -67,6 +75,14 @@ function uncertainTexts(rooms, known) {
   };
 }
 
+/** Where to stand to know, and the rooms beside. */
+function unknownTexts(spaces) {
+  return {
+    place_m: (i) => spaces[i].place_m.map((value) => number(value, 2)).join(", "),
+    beside: (i) => spaces[i].beside.map(({ room }) => room).join(", ") || "–",
+  };
+}
+
 /** Doors and passages between rooms. */
 function openingTexts(openings) {
   return { rooms: (i) => openings[i].rooms.join(" – ") };
@@ -101,6 +117,13 @@ export function showRooms(run) {
         class: "quiet",
         text: "± is a 95 % interval from the standard deviations of the refined wall lines alone, taken as independent; heights of levels are taken as exact. “?”: a side of the room lies on a line whose deviation is not known (locked, drawn by hand, or the edge of the building).",
       }),
+    );
+  }
+  if (summary.unknown_spaces?.length > 0) {
+    host.append(
+      make("h3", { text: "Unknown spaces" }),
+      make("p", { class: "quiet", text: "Nobody saw enough of them to call them rooms or open air. They are no part of the model; graphcut.unknown: rooms makes rooms of them." }),
+      listTable(summary.unknown_spaces, unknownTexts(summary.unknown_spaces)),
     );
   }
   if (summary.openings?.length > 0) {
