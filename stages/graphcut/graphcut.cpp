@@ -107,11 +107,13 @@ Graphcut graphcut(const CellComplex& complex, const FaceWeights& weights, const 
   const ManifoldCheck check(complex);
   const std::vector<std::uint8_t> label = answered(complex, weights, terms, energy, cut, params);
   const std::vector<std::uint8_t> model = labels_of_model(label);
+  const double before_m3 = energy_of(complex, energy, model).total_m3();
   Repair repair = repair_labels(check, energy, model);
   keep_unknown(label, repair.label);
 
   Graphcut result;
   result.cut_m3 = cut.flow_m3;
+  result.unknown_added_m3 = before_m3 - cut.flow_m3;
   result.repair_m3 = repair.added_m3;
   result.bad_places = static_cast<std::int64_t>(check.find_all(model).size());
   result.labels.label = std::move(repair.label);

@@ -11,7 +11,8 @@ namespace roomcut::graphcut {
 struct Graphcut {
   Labels labels;
   double cut_m3 = 0;            ///< least energy of all labellings, the flow
-  double repair_m3 = 0;         ///< what the repair added to it
+  double unknown_added_m3 = 0;  ///< what leaving out the unknown cells, or making rooms of them, added to it
+  double repair_m3 = 0;         ///< what the repair added; negative only where unknown cells were left out
   std::int64_t bad_places = 0;  ///< vertices of the complex where the cut was not manifold
   std::int64_t empty_cells = 0;
   std::int64_t unknown_cells = 0;

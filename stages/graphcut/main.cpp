@@ -35,6 +35,7 @@ void body(StageRun& run, const GraphcutParams& params) {
   run.count("energy", result.labels.energy_m3, "m^3");
   run.count("data term", result.labels.data_m3, "m^3");
   run.count("surface term", result.labels.boundary_m3, "m^3");
+  run.count("energy added by the unknown", result.unknown_added_m3, "m^3");
   run.count("non-manifold places in the cut", static_cast<double>(result.bad_places));
   run.count("labels changed by the repair", static_cast<double>(result.labels.repair_flips));
   run.count("energy added by the repair", result.repair_m3, "m^3");

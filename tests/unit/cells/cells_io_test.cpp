@@ -38,7 +38,7 @@ class CellsIo : public testing::Test {
 
   Labels labels() const {
     Labels labels;
-    labels.label = {0, 1, 0, 0, 1, 0};
+    labels.label = {0, 1, 2, 0, 1, 0};
     labels.margin_m3 = {1, 2, 3, 4, 5, -0.5F};
     labels.unobserved = {0, 0, 1, 0, 0, 1};
     labels.energy_m3 = 1.75;
@@ -48,7 +48,9 @@ class CellsIo : public testing::Test {
     return labels;
   }
 
-  CellRooms rooms() const { return {{-1, 0, -1, -1, 1, -1}, {-1, 1, -1, -1, 0, -1}}; }
+  CellRooms rooms() const {
+    return {{-1, 0, -1, -1, 1, -1}, {-1, 1, -1, -1, 0, -1}, {-1, -1, 0, -1, -1, -1}};
+  }
 
   DataTerms terms() const {
     DataTerms terms;
@@ -57,10 +59,11 @@ class CellsIo : public testing::Test {
     terms.weights_source = "a search";
     terms.features = {{"open", -3, "not closed", {0, 0, 0.5F, 0, 0, 0}},
                       {"sky", -0.8, "outdoors", {1, 2, 3, 4, 5, 6}}};
-    for (auto* values : {&terms.thin, &terms.line_of_sight}) {
+    for (auto* values : {&terms.thin, &terms.line_of_sight, &terms.closed}) {
       values->assign(6, 0.25F);
     }
     terms.line_of_sight[4] = 0.5F;
+    terms.closed[3] = 0.75F;
     terms.wall_implied.front() = 0.75F;
     terms.level_implied.back() = 1.0F;
     terms.vertical[2] = -1;
@@ -177,6 +180,7 @@ TEST_F(CellsIo, EvidenceAndLabelsComeBackAsTheyWere) {
   EXPECT_EQ(t.winding, terms().winding);
   EXPECT_EQ(t.surface_m2, terms().surface_m2);
   EXPECT_EQ(t.thin, terms().thin);
+  EXPECT_EQ(t.closed, terms().closed);
   ASSERT_EQ(t.features.size(), 2U);
   for (std::size_t i = 0; i < t.features.size(); ++i) {
     EXPECT_EQ(t.features[i].name, terms().features[i].name);
@@ -205,6 +209,7 @@ TEST_F(CellsIo, EvidenceAndLabelsComeBackAsTheyWere) {
   const CellRooms r = read_rooms(folder_ / "rooms.h5", cells_);
   EXPECT_EQ(r.storey, rooms().storey);
   EXPECT_EQ(r.room, rooms().room);
+  EXPECT_EQ(r.unknown_space, rooms().unknown_space);
 }
 
 TEST_F(CellsIo, FilesOfOtherCellsAreRefused) {

@@ -53,5 +53,17 @@ TEST(Interfaces, TheSurfaceOfOneCellIsItsBoundary) {
   EXPECT_NEAR(area, 2 * 3 + 8 * 2.5, 1e-12);
 }
 
+TEST(Interfaces, UnknownIsNoSideOfTheModelButApartFromEmptyAndSolid) {
+  const std::vector<std::uint8_t> label = {Label::kUnknown, Label::kEmpty, Label::kSolid};
+  EXPECT_EQ(labels_of_model(label), (std::vector<std::uint8_t>{Label::kSolid, Label::kEmpty, Label::kSolid}));
+  const auto between = [](std::int64_t a, std::int64_t b) { return Interface{true, 0, a, b, 1}; };
+  EXPECT_TRUE(is_surface(between(0, 1), label));
+  EXPECT_FALSE(is_surface(between(0, 2), label));
+  EXPECT_TRUE(separates(between(0, 1), label));
+  EXPECT_TRUE(separates(between(0, 2), label));
+  EXPECT_TRUE(separates(between(0, Interface::kOutsideCell), label));
+  EXPECT_FALSE(separates(between(2, Interface::kOutsideCell), label));
+}
+
 }  // namespace
 }  // namespace roomcut

@@ -76,7 +76,9 @@ DataTerms terms_of(const CellComplex& complex, const std::vector<float>& beta) {
   DataTerms terms;
   terms.reset(complex);
   terms.beta = beta;
-  terms.observed.assign(complex.cells(), 1.0F);
+  for (std::vector<float>* seen : {&terms.observed, &terms.around, &terms.closed}) {
+    seen->assign(complex.cells(), 1.0F);
+  }
   for (std::size_t c = 0; c < complex.cells(); ++c) {
     const double volume = complex.volume(c);
     terms.d_empty[c] = volume * (1 - beta[c]);

@@ -41,6 +41,22 @@ TEST(LineFaces, ARoomsWallsCarrySurfaceOverItsLengthAndLookInward) {
   EXPECT_NEAR(of(all, complex, "y1").area_m2, 12.5, 1e-9);
 }
 
+TEST(LineFaces, WallsOfUnknownSpacesStayForTheSecondCut) {
+  const CellComplex complex = grid_complex({-2, 0, 5, 9, 11}, {-2, 0, 4, 6}, {0, 2.5});
+  auto label = labelled(
+      complex, [](const Vec2& p, std::size_t) { return p.x() > 0 && p.x() < 5 && p.y() > 0 && p.y() < 4; });
+  for (std::size_t f = 0; f < complex.faces(); ++f) {
+    const Vec2 at = complex.centroid(f);
+    if (at.x() > 5 && at.x() < 9 && at.y() > 0 && at.y() < 4) {
+      label[complex.cell(f, 0)] = Label::kUnknown;
+    }
+  }
+  const auto all = find_line_faces(complex, label, 0.1);
+  EXPECT_EQ(of(all, complex, "x2").side_at(7, 0), -1) << "the room is the emptier side";
+  EXPECT_EQ(of(all, complex, "x3").side_at(7, 0), -1) << "the unknown space is";
+  EXPECT_NEAR(of(all, complex, "x3").area_m2, 10, 1e-9);
+}
+
 TEST(LineFaces, FacesThatMeetInsideABinLeaveNoGap) {
   // y 1.23 cuts the west wall in two edges of one line.
   const CellComplex complex = grid_complex({-2, 0, 5, 7}, {-2, 0, 1.23, 4, 6}, {0, 2.5});
