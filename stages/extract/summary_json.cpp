@@ -29,9 +29,8 @@ std::string percent(double share) {
 }
 
 std::string why(const UnknownSpace& space) {
-  const std::string evidence = "of what lies around it " + percent(space.seen_inside) +
-                               " was seen from inside, " + percent(space.closed) +
-                               " of the directions all around are closed";
+  const std::string evidence = percent(space.seen_inside) + " of what lies around it seen from inside, " +
+                               percent(space.closed) + " closed all around";
   return (space.is_closed() ? "a room that nobody entered, or structure: " : "a room, or open air: ") +
          evidence;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/cells/cell_pieces.h"
 #include "stages/graphcut/max_flow.h"
@@ -64,6 +65,28 @@ std::vector<bool> find_wide(const CellComplex& complex, const CellPieces& pieces
   return wide;
 }
 
+/// What is left of a room between unknown cells and is no wider than a wall goes with them.
+void take_slivers(const CellComplex& complex, std::vector<std::uint8_t>& label) {
+  const CellPieces pieces = connected_pieces(
+      complex, [&](std::size_t cell) { return is_empty(label, cell); },
+      [](const Interface&) { return true; });
+  const std::vector<bool> wide = find_wide(complex, pieces);
+  std::vector<bool> taken(wide.size(), false);
+  for_each_interface(complex, [&](const Interface& face) {
+    for (const auto& [cell, other] : {std::pair{face.a, face.b}, std::pair{face.b, face.a}}) {
+      if (is_empty(label, cell) && other >= 0 && is_unknown(label, static_cast<std::size_t>(other))) {
+        const auto piece = static_cast<std::size_t>(pieces.of_cell[static_cast<std::size_t>(cell)]);
+        taken[piece] = !wide[piece];
+      }
+    }
+  });
+  for (std::size_t c = 0; c < complex.cells(); ++c) {
+    if (pieces.of_cell[c] >= 0 && taken[static_cast<std::size_t>(pieces.of_cell[c])]) {
+      label[c] = Label::kUnknown;
+    }
+  }
+}
+
 }  // namespace
 
 Doubt doubt_of(double seen, double closed, double doubt) {
@@ -89,6 +112,7 @@ std::vector<std::uint8_t> doubtful_labels(const CellComplex& complex, const Face
       label[c] = Label::kUnknown;
     }
   }
+  take_slivers(complex, label);
   return label;
 }
 

@@ -23,7 +23,8 @@ Doubt doubt_of(double seen, double closed, double doubt);
 /// The optimal labels `cut` with the third answer: two more exact cuts, with the log-odds of all cells at the
 /// one and at the other end of their doubt. The labels of such cuts are nested, so whatever the true log-odds
 /// in between: what both call empty is empty, what both call solid is solid. What they call differently, in
-/// pieces (between likely surfaces) that are wider than a wall, is unknown. Deterministic.
+/// pieces (between likely surfaces) that are wider than a wall, is unknown, and so are slivers of rooms that
+/// it cuts off. Deterministic.
 std::vector<std::uint8_t> doubtful_labels(const CellComplex& complex, const FaceWeights& weights,
                                           const DataTerms& terms, const EnergyTerms& energy,
                                           const std::vector<std::uint8_t>& cut, double doubt);

@@ -95,6 +95,32 @@ TEST_F(ExtractProgram, WritesAModelThatLiesOnTheScanAndTheSameBytesAgain) {
   EXPECT_EQ(ply_bytes(read_mesh(work_ / "model.ply"), {0, 0, 0}, {}), first);
 }
 
+TEST_F(ExtractProgram, ListsAnUnknownSpaceInTheSummaryAndItsCellsInTheRooms) {
+  write_inputs(in_the_middle);
+  const fs::path folder = work_ / "90_final";
+  const CellsFile cells = read_cells(folder / "cells.h5");
+  Labels labels = read_labels(folder / "labels.h5", cells);
+  const std::size_t unknown = cells.complex.cell(0, 1);  // a corner of the plan, 1 m^3
+  labels.label[unknown] = Label::kUnknown;
+  write_labels(folder / "labels.h5", labels, cells, {});
+  ASSERT_EQ(run(), 0) << errors();
+  const Json summary = read_json_artefact(work_ / "summary.json", artefacts::kSummary);
+  ASSERT_EQ(summary.at("unknown_spaces").size(), 1U);
+  const Json& space = summary.at("unknown_spaces").at(0);
+  const Vec2 middle = cells.complex.centroid(0);
+  EXPECT_DOUBLE_EQ(space.at("volume_m3").get<double>(), 1);
+  EXPECT_NEAR(space.at("place_m").at(0).get<double>(), 1000 + middle.x(), 1e-9)
+      << "in the scan's coordinates";
+  EXPECT_NEAR(space.at("place_m").at(2).get<double>(), 51, 1e-9);
+  EXPECT_NE(space.at("to_know").get<std::string>().find("scan from inside it"), std::string::npos);
+  EXPECT_DOUBLE_EQ(summary.at("totals").at("unknown_m3").get<double>(), 1);
+  EXPECT_DOUBLE_EQ(summary.at("totals").at("volume_m3").get<double>(), 4) << "no part of the model";
+  const CellRooms rooms = read_rooms(work_ / "rooms.h5", cells);
+  for (std::size_t cell = 0; cell < cells.complex.cells(); ++cell) {
+    EXPECT_EQ(rooms.unknown_space[cell], cell == unknown ? 0 : -1);
+  }
+}
+
 TEST_F(ExtractProgram, OfALevelledScanModelAndSummaryLieOnTheScan) {
   frame_.level[0] = 0.06;
   frame_.level[2] = std::sqrt(1 - 0.0036);

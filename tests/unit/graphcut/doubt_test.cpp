@@ -128,6 +128,25 @@ TEST(Doubt, ASpaceNoWiderThanAWallIsDecided) {
   EXPECT_EQ(scene.label_of_space(), Label::kSolid);
 }
 
+TEST(Doubt, ASliverOfARoomBetweenUnknownCellsGoesWithThem) {
+  TwoSpaces scene({0.4F, 0.1F, 1});
+  const std::size_t sliver = scene.space.front();  // surely empty, but 1 m wide: 2 V / A = 0.33 m
+  look(scene.terms, scene.complex, sliver, {0.98F, 1, 1});
+  for_each_interface_of(scene.complex, sliver, [&](const Interface& face, std::int64_t) {
+    (face.wall ? scene.weights.wall_omega : scene.weights.level_omega)[face.index] = 1;
+  });
+  for (const std::size_t cell : scene.room) {  // a wall of a metre between the two
+    if (scene.complex.centre(cell).x() > 2) {
+      look(scene.terms, scene.complex, cell, {0.02F, 1, 1});
+    }
+  }
+  GraphcutParams params;
+  const Graphcut result = graphcut(scene.complex, scene.weights, scene.terms, params);
+  for (const std::size_t cell : scene.space) {
+    EXPECT_EQ(result.labels.label[cell], Label::kUnknown);
+  }
+}
+
 TEST(Doubt, OtherCellsKeepTheirLabelsWhateverTheLogOddsWithinTheDoubt) {
   constexpr double kDoubt = 2;
   CellComplex complex = grid_complex(6, 6, 4);  // cells of 2 m: every piece is wider than a wall

@@ -22,14 +22,12 @@ const kNames = {
   width_m: "Width [m]",
   sill_z_m: "Sill [m]",
   thickness_m: "Thickness of the wall [m]",
-  seen_inside: "Seen from inside",
-  closed: "Closed all around",
-  probability_empty: "Probability of empty",
   place_m: "Place [m]",
   beside: "Beside rooms",
   why: "Why",
   to_know: "To know",
 };
+const kSentences = new Set(["why", "to_know"]);
 const kOrder = Object.keys(kNames);
 const kUnits = [["_m2", " [m²]"], ["_m3", " [m³]"], ["_m", " [m]"]];
 
@@ -42,13 +40,14 @@ function nameOf(key) {
 /** A table of objects: a column for each number or text in them, in the order of kNames; `texts[key](i)` overrules a value. */
 function listTable(list, texts = {}) {
   const keys = [...new Set([...list.flatMap((item) => Object.keys(item)), ...Object.keys(texts)])].filter((key) => texts[key] || typeof list[0][key] !== "object");
+  const classOf = (key) => (kSentences.has(key) ? "sentence" : "number");
   const rank = (key) => (kOrder.includes(key) ? kOrder.indexOf(key) : kOrder.length);
   keys.sort((a, b) => rank(a) - rank(b));
   return make(
     "table",
     {},
-    make("tr", {}, ...keys.map((key) => make("th", { class: "number", text: nameOf(key) }))),
-    ...list.map((item, i) => make("tr", {}, ...keys.map((key) => make("td", { class: "number", text: texts[key]?.(i) ?? valueText(item[key]) })))),
+    make("tr", {}, ...keys.map((key) => make("th", { class: classOf(key), text: nameOf(key) }))),
+    ...list.map((item, i) => make("tr", {}, ...keys.map((key) => make("td", { class: classOf(key), text: texts[key]?.(i) ?? valueText(item[key]) })))),
   );
 }
 
@@ -75,12 +74,21 @@ function uncertainTexts(rooms, known) {
   };
 }
 
-/** Where to stand to know, and the rooms beside. */
-function unknownTexts(spaces) {
-  return {
-    place_m: (i) => spaces[i].place_m.map((value) => number(value, 2)).join(", "),
-    beside: (i) => spaces[i].beside.map(({ room }) => room).join(", ") || "–",
-  };
+/** Spaces that are neither rooms nor denied: where, how large, why, and what to scan to know. */
+function unknownTable(spaces) {
+  return listTable(
+    spaces.map(({ unknown_space, storey, area_m2, volume_m3, height_m, place_m, beside, why, to_know }) => ({
+      unknown_space,
+      storey,
+      area_m2,
+      volume_m3,
+      height_m,
+      place_m: place_m.map((value) => number(value, 2)).join(", "),
+      beside: beside.map(({ room }) => room).join(", ") || "–",
+      why,
+      to_know,
+    })),
+  );
 }
 
 /** Doors and passages between rooms. */
@@ -123,7 +131,7 @@ export function showRooms(run) {
     host.append(
       make("h3", { text: "Unknown spaces" }),
       make("p", { class: "quiet", text: "Nobody saw enough of them to call them rooms or open air. They are no part of the model; graphcut.unknown: rooms makes rooms of them." }),
-      listTable(summary.unknown_spaces, unknownTexts(summary.unknown_spaces)),
+      unknownTable(summary.unknown_spaces),
     );
   }
   if (summary.openings?.length > 0) {
