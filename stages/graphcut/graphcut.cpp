@@ -24,6 +24,10 @@ std::string text(const char* format, double a, double b = 0, double c = 0) {
   return buffer;
 }
 
+bool any_empty(const std::vector<std::uint8_t>& label) {
+  return std::find(label.begin(), label.end(), Label::kEmpty) != label.end();
+}
+
 /// The labels before the repair, as params.unknown wants them.
 std::vector<std::uint8_t> answered(const CellComplex& complex, const FaceWeights& weights,
                                    const DataTerms& terms, const EnergyTerms& energy, const Cut& cut,
@@ -67,7 +71,7 @@ void keep_unknown(const std::vector<std::uint8_t>& before, std::vector<std::uint
   });
   throw StageError(
       errors::kEmptyModel, "graphcut",
-      std::string(unknown_m3 > 0 ? "no cell is surely empty: " + text("%.3g m^3 are unknown; ", unknown_m3)
+      std::string(unknown_m3 > 0 ? "no cell is empty: " + text("%.3g m^3 are unknown; ", unknown_m3)
                                  : "every cell is solid: ") +
           text("%.3g m^3 lean towards empty and would gain %.3g m^3 of energy, no surface around them is "
                "that cheap; ",
@@ -105,7 +109,12 @@ Graphcut graphcut(const CellComplex& complex, const FaceWeights& weights, const 
   const EnergyTerms energy = energy_terms(complex, weights, terms, params);
   const Cut cut = minimum_cut(complex, energy);
   const ManifoldCheck check(complex);
-  const std::vector<std::uint8_t> label = answered(complex, weights, terms, energy, cut, params);
+  std::vector<std::uint8_t> label = answered(complex, weights, terms, energy, cut, params);
+  // The scanner stood in some room: where the doubt would leave none, the cut alone decides.
+  const bool cut_alone = !any_empty(label) && any_empty(cut.label);
+  if (cut_alone) {
+    label = cut.label;
+  }
   const std::vector<std::uint8_t> model = labels_of_model(label);
   const double before_m3 = energy_of(complex, energy, model).total_m3();
   Repair repair = repair_labels(check, energy, model);
@@ -113,6 +122,7 @@ Graphcut graphcut(const CellComplex& complex, const FaceWeights& weights, const 
 
   Graphcut result;
   result.cut_m3 = cut.flow_m3;
+  result.cut_alone = cut_alone;
   result.unknown_added_m3 = before_m3 - cut.flow_m3;
   result.repair_m3 = repair.added_m3;
   result.bad_places = static_cast<std::int64_t>(check.find_all(model).size());

@@ -14,6 +14,7 @@ struct Graphcut {
   double unknown_added_m3 = 0;  ///< what leaving out the unknown cells, or making rooms of them, added to it
   double repair_m3 = 0;         ///< what the repair added; negative only where unknown cells were left out
   std::int64_t bad_places = 0;  ///< vertices of the complex where the cut was not manifold
+  bool cut_alone = false;       ///< the doubt left no room, so the cut decided without it
   std::int64_t empty_cells = 0;
   std::int64_t unknown_cells = 0;
   double empty_m3 = 0;             ///< volume of the empty cells

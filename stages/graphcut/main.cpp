@@ -27,6 +27,10 @@ void body(StageRun& run, const GraphcutParams& params) {
   const Graphcut result = graphcut::graphcut(cells.complex, weights, terms, params);
   write_labels(run.output("labels-out"), result.labels, cells, run.provenance());
 
+  if (result.cut_alone) {
+    run.warn(
+        "no space was seen well enough to be surely a room: none is called unknown, the cut alone decides");
+  }
   run.count("cells", static_cast<double>(cells.complex.cells()));
   run.count("empty cells", static_cast<double>(result.empty_cells));
   run.count("empty", result.empty_m3, "m^3");

@@ -208,6 +208,15 @@ TEST(Doubt, TheModelBesideUnknownCellsIsManifoldAndItsEnergyAddsUp) {
   EXPECT_GT(unknown, 20);
 }
 
+TEST(Doubt, WhereNothingIsSurelyARoomTheCutAloneDecides) {
+  TwoSpaces scene({0.4F, 0.1F, 1});
+  for (const std::size_t cell : scene.room) {
+    look(scene.terms, scene.complex, cell, {0.55F, 0.3F, 0.4F});
+  }
+  EXPECT_EQ(scene.label_of_space(), Label::kSolid);  // which also asks that the room be empty
+  EXPECT_TRUE(graphcut(scene.complex, scene.weights, scene.terms, {}).cut_alone);
+}
+
 TEST(Doubt, ABuildingOfWhichAllIsUnknownIsAnErrorThatNamesTheSwitch) {
   TwoSpaces scene({0.4F, 0.1F, 1});
   for (const std::size_t cell : scene.room) {
