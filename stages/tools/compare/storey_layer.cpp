@@ -26,6 +26,10 @@ bool StoreyLayer::empty(std::int32_t face) const {
   return is_empty(run.plan->complex, run.plan->labels.label, face, layer);
 }
 
+bool StoreyLayer::unknown(std::size_t face) const {
+  return is_unknown(run.plan->labels.label, run.plan->complex.cell(face, layer));
+}
+
 bool StoreyLayer::unobserved(std::size_t face) const {
   return run.plan->labels.unobserved[run.plan->complex.cell(face, layer)] != 0;
 }

@@ -23,6 +23,7 @@ struct StoreyLayer {
   Vec2 placed(const Vec2& local) const { return drawing.plan_to_local(own.plan_to_scan(local)); }
   std::vector<Vec2> corners(std::size_t face) const;
   bool empty(std::int32_t face) const;  ///< false for -1, beyond the bounding box
+  bool unknown(std::size_t face) const;
   bool unobserved(std::size_t face) const;
 };
 

@@ -8,8 +8,8 @@ namespace roomcut::compare {
 
 namespace {
 
-constexpr Colour kEmpty{196, 222, 240}, kUnobserved{228, 180, 206}, kWords{58, 68, 75}, kBoth{230, 232, 233},
-    kOnlyA{230, 159, 0}, kOnlyB{0, 114, 178};
+constexpr Colour kEmpty{196, 222, 240}, kUnobserved{228, 180, 206}, kUnknown{240, 228, 66},
+    kWords{58, 68, 75}, kBoth{230, 232, 233}, kOnlyA{230, 159, 0}, kOnlyB{0, 114, 178};
 /// A line that moved less is not drawn as moved [m].
 constexpr double kShownMove_m = 0.002;
 
@@ -41,6 +41,8 @@ std::string draw_side(const Box& box, const StoreyLayer& layer, const SpaceFacts
   for (std::size_t f = 0; f < layer.faces(); ++f) {
     if (layer.empty(static_cast<std::int32_t>(f))) {
       svg.polygon(layer.corners(f), layer.unobserved(f) ? kUnobserved : kEmpty, 1);
+    } else if (layer.unknown(f)) {
+      svg.polygon(layer.corners(f), kUnknown, 1);
     }
   }
   draw_walls(svg, layer, 1.5);

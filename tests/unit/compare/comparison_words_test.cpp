@@ -72,5 +72,16 @@ TEST(StoreyPlans, a_storey_that_only_one_run_has_is_drawn_alone) {
   EXPECT_FALSE(plans[0].a.empty());
 }
 
+TEST(StoreyPlans, unknown_cells_have_a_colour_of_their_own) {
+  RunFacts a = square_run("a", 5);
+  const RunFacts b = a;
+  a.plan->labels.label[5] = Label::kUnknown;
+  const std::vector<StoreyPlans> plans = draw_storeys(a, b, compare_runs(a, b));
+  ASSERT_EQ(plans.size(), 1U);
+  const std::string yellow = "#f0e442";
+  EXPECT_TRUE(has(plans[0].a, yellow)) << plans[0].a;
+  EXPECT_FALSE(has(plans[0].b, yellow));
+}
+
 }  // namespace
 }  // namespace roomcut::compare
