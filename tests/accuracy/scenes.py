@@ -25,7 +25,7 @@ GROUPS = {
 RANDOM_SEEDS = range(101, 151)
 RANDOM_MU_M = (0.05, 0.3, 1.0)
 RANDOM_POINTS = 150000
-VIRTUAL = ("bimwhale_large", "duplex", "fzk_haus", "institute_var2", "niedriha")
+VIRTUAL = ("bimwhale_large", "bodo_school", "duplex", "fzk_haus", "hom", "institute_var2", "kit_edc", "nibs_office", "niedriha", "smiley_west")
 
 
 def synthetic(group, family, seed):
