@@ -163,4 +163,39 @@ double total_length(const std::vector<Interval>& intervals) {
   return sum;
 }
 
+void unite(std::vector<Interval>& intervals) {
+  std::sort(intervals.begin(), intervals.end(),
+            [](const Interval& a, const Interval& b) { return std::tie(a.lo, a.hi) < std::tie(b.lo, b.hi); });
+  std::size_t kept = 0;
+  for (const Interval& next : intervals) {
+    if (kept > 0 && next.lo <= intervals[kept - 1].hi) {
+      intervals[kept - 1].hi = std::max(intervals[kept - 1].hi, next.hi);
+    } else {
+      intervals[kept++] = next;
+    }
+  }
+  intervals.resize(kept);
+}
+
+void subtract(const std::vector<Interval>& from, const std::vector<Interval>& what,
+              std::vector<Interval>& out) {
+  out.clear();
+  std::size_t first = 0;
+  for (const Interval& part : from) {
+    while (first < what.size() && what[first].hi <= part.lo) {
+      ++first;
+    }
+    double lo = part.lo;
+    for (std::size_t i = first; i < what.size() && what[i].lo < part.hi; ++i) {
+      if (what[i].lo > lo) {
+        out.push_back({lo, what[i].lo});
+      }
+      lo = std::max(lo, what[i].hi);
+    }
+    if (part.hi > lo) {
+      out.push_back({lo, part.hi});
+    }
+  }
+}
+
 }  // namespace roomcut::evaluate

@@ -12,10 +12,10 @@
 
 namespace roomcut::evaluate {
 
-/// The `rooms` of a truth.json, brought into `axes`: name, floor, ceiling and either `polygon` ([[x, y], …])
-/// or a point in it (`center`). Other members are ignored. Throws StageError(kMeshFormat) for what is not
-/// that.
-std::vector<DescribedRoom> read_described_rooms(const std::filesystem::path& path, const ComparedAxes& axes);
+/// Of a truth.json, brought into `axes`: the `rooms`: name, floor, ceiling, either `polygon` ([[x, y], …]) or
+/// a point in it (`center`), and optionally `scanned`; optionally `ignore_boxes`: [[lower corner], [upper
+/// corner]] each. Other members are ignored. Throws StageError(kMeshFormat) for what is not that.
+TruthDescription read_truth_description(const std::filesystem::path& path, const ComparedAxes& axes);
 
 /// The cells, labels and, if given, data terms of one pass, brought into `axes`, whose turn becomes that of
 /// the cells: their faces stay upright and level. Errors as in cells_io.h.

@@ -98,9 +98,13 @@ MeasuredSurface::MeasuredSurface(const TriangleMesh& mesh)
                MeshTree(mesh, triangles_of(mesh, all_, SlopeClass::kSloped))} {}
 
 SurfaceDistances measure(const TriangleMesh& from, const MeasuredSurface& from_surface,
-                         const MeasuredSurface& to, double spacing_m, std::uint64_t seed) {
+                         const MeasuredSurface& to, double spacing_m, std::uint64_t seed,
+                         const std::function<bool(const Vec3&)>& counts) {
   SurfaceDistances out;
   out.samples = sample_surface(from, spacing_m, seed);
+  std::erase_if(out.samples, [&](const SurfaceSample& sample) {
+    return !counts(sample.point) && to.all().nearest(sample.point, kClassLimit).triangle < 0;
+  });
   const std::size_t n = out.samples.size();
   out.slope.resize(n);
   out.distance.resize(n);

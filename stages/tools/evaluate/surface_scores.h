@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -44,9 +45,12 @@ class MeasuredSurface {
   std::array<MeshTree, 3> classes_;
 };
 
-/// Measures `from` against `to`. Parallel; the same result for any number of threads.
-SurfaceDistances measure(const TriangleMesh& from, const MeasuredSurface& from_surface,
-                         const MeasuredSurface& to, double spacing_m, std::uint64_t seed);
+/// Measures `from` against `to`; samples for which `counts` is false are left out when they are farther from
+/// `to` than the largest buffer. Parallel; the same result for any number of threads.
+SurfaceDistances measure(
+    const TriangleMesh& from, const MeasuredSurface& from_surface, const MeasuredSurface& to,
+    double spacing_m, std::uint64_t seed,
+    const std::function<bool(const Vec3&)>& counts = [](const Vec3&) { return true; });
 
 /// Completeness, correctness and accuracy of the ISPRS benchmark on indoor modelling (Khoshelham et al. 2017,
 /// 2021), per slope class: share of the reference's area within `buffer` of the model, share of the model's

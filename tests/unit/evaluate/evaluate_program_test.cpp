@@ -92,7 +92,28 @@ TEST_F(EvaluateProgram, RoomsOfATruthJsonKeepTheirNames) {
   EXPECT_NEAR(list.at(1).at("volume_m3").get<double>(), 3.9 * 3 * 2.5, 0.5);
 }
 
+TEST_F(EvaluateProgram, IgnoredBoxesAndRoomsThatNobodyEnteredAreReadFromTheTruthJson) {
+  write("truth.json", R"({"rooms": [
+    {"name": "kitchen", "floor": 0, "ceiling": 2.5, "center": [1, 1, 1], "scanned": false},
+    {"name": "hall", "floor": 0, "ceiling": 2.5, "center": [5, 1, 1], "scanned": true}],
+    "ignore_boxes": [[[20, 3, 2.5], [8.1, 0, 0]]]})");
+  TriangleMesh more = box({4.1, 0, 0}, {8, 3, 2.5});
+  append(more, box({8.2, 0, 0}, {12, 3, 2.5}));
+  write("model.ply", ply_bytes(more, {0, 0, 0}, {}));
+  ASSERT_EQ(run("--truth truth.off --truth-json truth.json"), 0) << read("stderr");
+  const Json scores = read_json_artefact(work_ / "evaluate/scores.json", artefacts::kScores);
+  EXPECT_NEAR(scores.at("volume").at("seen").at("iou").get<double>(), 1, 1e-6);
+  EXPECT_NEAR(scores.at("volume").at("ignored_m3").get<double>(), 28.5, 0.5);
+  EXPECT_NEAR(scores.at("volume").at("precision").get<double>(), 1, 1e-6);
+  EXPECT_EQ(scores.at("rooms").at("unentered").at("denied").get<int>(), 1);
+  EXPECT_EQ(scores.at("rooms").at("list").at(0).at("answer"), "denied");
+}
+
 TEST_F(EvaluateProgram, ATruthJsonThatIsNoneIsAnErrorOfThatFile) {
+  for (const char* boxes : {"3", "[[1, 2]]", "[[[0, 0, 0], [1, 1]]]", R"([[[0, 0, 0], [1, 1, "x"]]])"}) {
+    write("truth.json", std::string(R"({"rooms": [], "ignore_boxes": )") + boxes + "}");
+    expect_refused("M02", "--truth truth.off --truth-json truth.json");
+  }
   const std::string room = R"({"rooms": [{"name": "hall", "floor": 0, "ceiling": 2.5, "center": [1, 1, )";
   for (const std::string& height : {std::string("1e999"), std::string("1e308"), std::string(R"("high")"),
                                     std::string(50'000, '[') + std::string(50'000, ']')}) {

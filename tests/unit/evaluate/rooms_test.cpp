@@ -50,7 +50,7 @@ TEST(Rooms, AMissingRoomIsMissedAndLowersTheRecall) {
   append(model, box({0, 0, 2.8}, {4, 3, 5.3}));
   const Scores scores = evaluate(model, truth(), {}, kCoarse);
   EXPECT_EQ(scores.found(), 3U);
-  EXPECT_FALSE(scores.rooms[2].found);
+  EXPECT_FALSE(scores.rooms[2].found());
   EXPECT_TRUE(scores.merged.empty());
   EXPECT_NEAR(scores.volume->recall(), 0.75, 5e-3);
   EXPECT_NEAR(scores.volume->precision(), 1, 1e-12);
@@ -97,10 +97,10 @@ TEST(Rooms, PrismsDescribeRoomsThatDoorwaysJoinToOneBody) {
   };
   const std::vector<DescribedRoom> described = {{"west", square(0, 4), 0, 2.5, {0, 0, 0}},
                                                 {"east", square(4, 8), 0, 2.5, {0, 0, 0}}};
-  const Scores scores = evaluate(box({0, 0, 0}, {4, 3, 2.5}), joined, described, kCoarse);
+  const Scores scores = evaluate(box({0, 0, 0}, {4, 3, 2.5}), joined, {described, {}}, kCoarse);
   ASSERT_EQ(scores.rooms.size(), 2U);
-  EXPECT_TRUE(scores.rooms[0].found);
-  EXPECT_FALSE(scores.rooms[1].found);
+  EXPECT_TRUE(scores.rooms[0].found());
+  EXPECT_FALSE(scores.rooms[1].found());
   EXPECT_NEAR(scores.rooms[0].volume_m3, 30, 0.2);
   EXPECT_NEAR(scores.rooms[1].empty_m3, 0, 0.2);
 }
