@@ -86,7 +86,8 @@ RoomScore room_score(const TruthRoom& room, const VolumeScores& volume, std::siz
 
 void score_spaces(const TriangleMesh& model, const TriangleMesh& truth, const TruthDescription& described,
                   const EvaluateParams& params, const SurfaceDistances& truth_samples,
-                  const MeasuredSurface& truth_surface, const LabelledCells* cells, Scores& scores) {
+                  const MeasuredSurface& truth_surface, const LabelledCells* cells,
+                  const ScannedSurface* scanned, Scores& scores) {
   const Columns truth_columns(truth);
   const Columns model_columns(model);
   const std::vector<TruthRoom> rooms = locate_rooms(described.rooms, truth_columns);
@@ -109,7 +110,7 @@ void score_spaces(const TriangleMesh& model, const TriangleMesh& truth, const Tr
     found.push_back(scores.rooms.back().found() ? 1 : 0);
   }
   scores.thin = score_thin_walls(truth_samples, truth_surface.all(), finder, model_columns,
-                                 params.thin_wall_m, opening_test(cells));
+                                 params.thin_wall_m, opening_test(cells), scanned);
   scores.merged = merged_rooms(scores.thin, found);
   if (cells != nullptr) {
     scores.explanation = explain(
@@ -159,7 +160,7 @@ TriangleMesh prepared(const TriangleMesh& mesh, const ComparedAxes& axes) {
 }
 
 Scores evaluate(const TriangleMesh& model, const TriangleMesh& truth, const TruthDescription& described,
-                const EvaluateParams& params, const LabelledCells* cells) {
+                const EvaluateParams& params, const LabelledCells* cells, const ScannedSurface* scanned) {
   Scores scores;
   scores.truth_check = check_mesh(truth);
   require_closed_truth(scores.truth_check);
@@ -183,7 +184,7 @@ Scores evaluate(const TriangleMesh& model, const TriangleMesh& truth, const Trut
   scores.walls_matched = matched_share(from_truth, SlopeClass::kWall);
   scores.horizontals_matched = matched_share(from_truth, SlopeClass::kHorizontal);
   if (scores.model_check.closed() && scores.model_check.oriented()) {
-    score_spaces(model, truth, described, params, from_truth, truth_surface, cells, scores);
+    score_spaces(model, truth, described, params, from_truth, truth_surface, cells, scanned, scores);
   }
   return scores;
 }

@@ -11,6 +11,7 @@
 #include "stages/tools/evaluate/compared_axes.h"
 #include "stages/tools/evaluate/explain.h"
 #include "stages/tools/evaluate/params.h"
+#include "stages/tools/evaluate/scanned_surface.h"
 #include "stages/tools/evaluate/surface_scores.h"
 #include "stages/tools/evaluate/thin_walls.h"
 #include "stages/tools/evaluate/truth_rooms.h"
@@ -79,11 +80,13 @@ struct TruthDescription {
 };
 
 /// Scores `model` against `truth`, both prepared() with the same axes; `described` in them, too; `cells`, if
-/// given, are those that the model was made of, and are explained. Throws StageError(kMeshNotClosed) when the
+/// given, are those that the model was made of, and are explained; `scanned`, if given, is the scan that it
+/// was made of: walls of which it shows nothing merge no rooms. Throws StageError(kMeshNotClosed) when the
 /// truth is not a closed, oriented mesh, kTooComplex when a chosen spacing asks for more than 20 million
 /// samples; with `auto` the spacing grows until 1 million do. Parallel; the same result for any number of
 /// threads.
 Scores evaluate(const TriangleMesh& model, const TriangleMesh& truth, const TruthDescription& described,
-                const EvaluateParams& params, const LabelledCells* cells = nullptr);
+                const EvaluateParams& params, const LabelledCells* cells = nullptr,
+                const ScannedSurface* scanned = nullptr);
 
 }  // namespace roomcut::evaluate

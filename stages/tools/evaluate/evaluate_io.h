@@ -22,6 +22,9 @@ TruthDescription read_truth_description(const std::filesystem::path& path, const
 LabelledCells read_labelled_cells(const std::filesystem::path& cells, const std::filesystem::path& labels,
                                   const std::filesystem::path& terms, ComparedAxes& axes);
 
+/// Where the points of a cloud.h5 lie. Errors as in cloud_io.h.
+ScannedSurface read_scanned_surface(const std::filesystem::path& path, const ComparedAxes& axes);
+
 /// The member `explanation` of scores.json, and its rows in the table.
 Json explanation_json(const Explanation& explanation, const Scores& scores);
 std::string explanation_rows(const Explanation& explanation, const Scores& scores);

@@ -19,12 +19,14 @@ StageInfo info() {
   stage.name = "evaluate";
   stage.revision = 2;
   stage.summary = "Scores a model against a truth mesh";
-  stage.inputs = {{"model", "Mesh to judge: PLY, OFF or OBJ"},
-                  {"truth", "Closed mesh of the rooms' empty space: OFF, PLY or OBJ"},
-                  {"truth-json", "Rooms of the truth; without it every body is a room", true},
-                  {"cells", "Cells that the model was made of: explains what is wrong", true},
-                  {"labels", "Their labels; required with --cells", true},
-                  {"terms", "Their data terms: adds the evidence", true}};
+  stage.inputs = {
+      {"model", "Mesh to judge: PLY, OFF or OBJ"},
+      {"truth", "Closed mesh of the rooms' empty space: OFF, PLY or OBJ"},
+      {"truth-json", "Rooms of the truth; without it every body is a room", true},
+      {"cells", "Cells that the model was made of: explains what is wrong", true},
+      {"labels", "Their labels; required with --cells", true},
+      {"terms", "Their data terms: adds the evidence", true},
+      {"cloud", "Scan that the model was made of: tells walls from doors up to the ceiling", true}};
   stage.outputs = {{"scores", "All scores"},
                    {"coloured", "The model coloured by its distance to the truth"},
                    {"picture", "The same as a picture"},
@@ -65,9 +67,14 @@ void body(StageRun& run, const EvaluateParams& params) {
   if (run.has_input("truth-json")) {
     described = read_truth_description(run.input("truth-json"), axes);
   }
+  std::optional<ScannedSurface> scanned;
+  if (run.has_input("cloud")) {
+    scanned = read_scanned_surface(run.input("cloud"), axes);
+  }
   const TriangleMesh truth = prepared(truth_file, axes);
   const TriangleMesh model = prepared(model_file, axes);
-  Scores scores = evaluate::evaluate(model, truth, described, params, cells ? &*cells : nullptr);
+  Scores scores = evaluate::evaluate(model, truth, described, params, cells ? &*cells : nullptr,
+                                     scanned ? &*scanned : nullptr);
   if (scores.explanation) {
     for (Explanation::InventedSpace& space : scores.explanation->invented) {
       space.centre = axes.to_file(space.centre);

@@ -40,6 +40,8 @@ class RoomFinder {
   std::int32_t at_surface(const Vec3& p, std::int32_t triangle, const Vec3& normal) const;
   /// The rooms whose plan (x, y) may lie in: prisms only.
   void prisms_at(double x, double y, std::vector<std::int32_t>& out) const;
+  /// Whether a scanner stood in a room.
+  bool scanned(std::int32_t room) const { return rooms_[static_cast<std::size_t>(room)].scanned; }
   /// The room of a body; -1 = none.
   std::int32_t of_body(std::int32_t body) const { return room_of_body_[static_cast<std::size_t>(body)]; }
 
