@@ -122,6 +122,9 @@ class Moved(unittest.TestCase):
         half = moved.moved_points(points, {"thin": 2})
         self.assertTrue(set(half) < set(points))
         self.assertAlmostEqual(len(half) / len(points), 0.5, delta=0.05)
+        lopsided = moved.moved_points(points, {"lopsided": 0.2})
+        self.assertEqual(lopsided[:2000], points[:2000])  # the other side of the middle
+        self.assertAlmostEqual(len(lopsided) / len(points), 0.9, delta=0.02)
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "scan.ply")
             far = moved.moved_points(points, moved.POSES["utm_1mm"])

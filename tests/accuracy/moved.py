@@ -9,10 +9,12 @@ import struct
 from array import array
 
 # Of a pose: `turn` about the vertical axis [degrees], `shift` after it [m], `decimals` to which coordinates are rounded, `copies` of every
-# point, `thin`: one point of so many is kept. The shifts divide no grid of the stages; utm is what a survey exports.
+# point, `thin`: one point of so many is kept; `lopsided`: of the points beyond the middle in x and in y that share is left out. The stages'
+# grids begin at the mean of the points, so a shift moves them with the building; some points fewer on two sides move them against it.
+# utm is what a survey exports.
 POSES = {
     "still": {},
-    "shift_5cm": {"shift": (0.05, 0.065, 0.0)},
+    "lopsided": {"lopsided": 0.03},
     "shift_12cm": {"shift": (-0.12, 0.12, 0.031)},
     "turn_17": {"turn": 17.0},
     "turn_45": {"turn": 45.0},
@@ -57,8 +59,12 @@ def write_points(path, points):
 
 def moved_points(points, pose):
     move, draw = mover(pose), random.Random(1)
-    thin = pose.get("thin", 1)
-    return [move(*point) for point in points if thin == 1 or draw.randrange(thin) == 0] * pose.get("copies", 1)
+    middle = [sum(axis) / len(points) for axis in zip(*points)]
+
+    def kept(point):
+        beyond = (point[0] > middle[0]) + (point[1] > middle[1])
+        return draw.random() < (1 - beyond * pose.get("lopsided", 0.0)) / pose.get("thin", 1)
+    return [move(*point) for point in points if kept(point)] * pose.get("copies", 1)
 
 
 def moved_off(text, pose):
