@@ -88,11 +88,16 @@ def make_scan(build, scene, work):
         return files
     source, stamp = os.path.join(work, "scene.json"), os.path.join(work, "scene.stamp")
     program = os.path.join(build, "bin", "synthesize")
-    key = json.dumps(scene["scene"], indent=1) + subprocess.run([program, "--dump-params"], capture_output=True, text=True, check=True).stdout
+    density = scene.get("points_per_m2")
+    key = f"{json.dumps(scene['scene'], indent=1)}{density or ''}" + subprocess.run([program, "--dump-params"], capture_output=True, text=True, check=True).stdout
     made = [os.path.join(work, "scan.ply"), *files[1:]]
     if not is_fresh(stamp, key, made):
         write_if_changed(source, json.dumps(scene["scene"], indent=1))
-        run([program, "-q", "--threads", "1", "--scene", source, "--scan-out", made[0], "--truth-out", files[1], "--truth-json", files[2]])
+        command = [program, "-q", "--threads", "1", "--scene", source, "--scan-out", made[0], "--truth-out", files[1], "--truth-json", files[2]]
+        if density:  # a first run measures the building
+            run([*command, "--set", "points=1000"])
+            command += ["--set", f"points={round(density * read_json(files[2])['surface_area'])}"]
+        run(command)
         write_if_changed(stamp, key)
     return files
 

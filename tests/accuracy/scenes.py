@@ -2,7 +2,7 @@
 """The scenes of `make accuracy`, and the choice among them.
 
 A scene is a dict with `name` (unique, also the name of its folder), `group`, `kind` (family or building), and either `scene`, what
-`synthesize` makes it from (schemas/scene.md), or `folder`, where a scan and its truth lie; `stations`: with the scanner positions of the truth;
+`synthesize` makes it from (schemas/scene.md), with `points_per_m2` instead of its number of points, or `folder`, where a scan and its truth lie; `stations`: with the scanner positions of the truth;
 `mu_m`: a graphcut.mu_m of its own, in the work folder `work` that it shares with its building's other values.
 A case has `scan`, and either `truth`, a mesh, or `scene`, of which only the truth is taken. A moved scene has `base`, the scene that is moved, and `pose`.
 """
@@ -24,8 +24,12 @@ GROUPS = {
     "noise_1cm": {"noise_m": 0.01},
     "noise_2cm": {"noise_m": 0.02},
     "unknown": {"noise_m": 0.005, "holes": 0.1, "outliers": 0.01, "sampling": {"kind": "tripod"}, "random": {"unscanned": 0.3}},
+    "handheld": {"noise_m": 0.005, "handheld": {"warp_m": 0.02, "correlation_m": 1, "rounding_m": 0.05}},
     "closed": {"noise_m": 0.005, "clutter_per_m2": 0, "random": {"doors": False, "shafts": False}},
 }
+# Groups of some families only, and as dense as the scanners that they stand for, whatever the building's size [points per m^2].
+FAMILIES_OF = {"handheld": ("office", "oblique", "house")}
+DENSITIES = {"handheld": 300}
 # Buildings that try the mesh, not the accuracy: small scans, half of them from tripods, at three levels of detail; only when asked for.
 RANDOM_SEEDS = range(101, 151)
 RANDOM_MU_M = (0.05, 0.3, 1.0)
@@ -46,7 +50,8 @@ def synthetic(group, family, seed):
     scene = {"name": f"{group}_{family}_{seed}", "seed": seed, "clutter_per_m2": FURNITURE_PER_M2, **own}
     scene["sampling"] = {"points": POINTS, **own.get("sampling", {})}
     scene["random"] = {"family": family, "seed": seed, **own.get("random", {})}
-    return {"name": scene["name"], "group": group, "kind": family, "scene": scene}
+    density = {"points_per_m2": DENSITIES[group]} if group in DENSITIES else {}
+    return {"name": scene["name"], "group": group, "kind": family, "scene": scene, **density}
 
 
 def random_building(family, seed):
@@ -106,7 +111,7 @@ def moved_scenes(data):
 def all_scenes(data):
     """Every scene, the longest first; `data` is the folder of the data to judge by, with virtual/ and cases/."""
     buildings = os.path.join(data, "virtual")
-    usual = virtual(buildings) + moved_scenes(buildings) + cases(os.path.join(data, "cases")) + [synthetic(group, family, seed) for group in GROUPS for family in FAMILIES for seed in SEEDS]
+    usual = virtual(buildings) + moved_scenes(buildings) + cases(os.path.join(data, "cases")) + [synthetic(group, family, seed) for group in GROUPS for family in FAMILIES_OF.get(group, FAMILIES) for seed in SEEDS]
     return usual + [scene for seed in RANDOM_SEEDS for family in FAMILIES for scene in random_building(family, seed)]
 
 
