@@ -28,7 +28,7 @@ NOWHERE = "/nonexistent"
 def row(name, group="g", **figures):
     given = {"iou": 1.0, "recall": 1.0, "precision": 1.0, "rooms": 4, "found": 4, "missed": 0, "missed_scanned": 0, "merged": 0,
              "seen": 1.0, "denied": None, "invented": 0.0, "unentered_m3": 0.0, "unentered_found": 0, "unentered_unknown": 0, "unentered_denied": 0,
-             "bound": 1.0, "lost": {"labels": 0.1}, "extra": {"labels": 0.0}, "thin_kept": 1.0, "walls": 1.0, "horizontals": 1.0, "hausdorff_pct": 0.1, "valid": True, "cpu_s": 1.0}
+             "bound": 1.0, "lost": {"labels": 0.1}, "extra": {"labels": 0.0}, "thin_kept": 1.0, "walls": 1.0, "walls_loose": 1.0, "horizontals": 1.0, "hausdorff_pct": 0.1, "valid": True, "cpu_s": 1.0}
     return {"name": name, "group": group, "kind": "office", **given, **figures}
 
 

@@ -157,6 +157,7 @@ def row_of(scores, truth, openings):
             "seen": volume.get("seen", {}).get("iou", 0.0), "denied": share(unentered["denied_m3"], unentered["volume_m3"]),
             "unentered_m3": unentered["volume_m3"], **{f"unentered_{answer}": unentered[answer] for answer in ("found", "unknown", "denied")},
             "merged": rooms.get("merged", 0), "thin_kept": thin.get("walls_kept"), "walls": scores["walls_within_1deg_2cm"],
+            "walls_loose": scores["walls_within_1_5deg_4cm"],
             "horizontals": scores["horizontals_within_1deg_2cm"],
             "hausdorff_pct": scores["distance"]["symmetric"]["hausdorff_pct"], **explained(scores, mesh, volume, openings)}
 

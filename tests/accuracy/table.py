@@ -6,10 +6,10 @@ import itertools
 # key, head, width, decimals; counts are summed over a group, shares averaged.
 SHARES = (("iou", "IoU", 7, 4), ("bound", "bound", 7, 4), ("seen", "seen", 7, 4), ("recall", "recall", 7, 4), ("precision", "precis.", 7, 4))
 COUNTS = ("rooms", "found", "merged", "missed", "missed_scanned", "unentered_found", "unentered_unknown", "unentered_denied")
-MORE_SHARES = (("denied", "denied", 6, 3), ("invented", "invent.", 7, 4), ("thin_kept", "thin", 6, 3), ("walls", "walls", 6, 3), ("horizontals", "horiz.", 6, 3), ("hausdorff_pct", "Hausd.%", 8, 3))
+MORE_SHARES = (("denied", "denied", 6, 3), ("invented", "invent.", 7, 4), ("thin_kept", "thin", 6, 3), ("walls", "walls", 6, 3), ("walls_loose", "4 cm", 6, 3), ("horizontals", "horiz.", 6, 3), ("hausdorff_pct", "Hausd.%", 8, 3))
 AVERAGED = [column[0] for column in SHARES + MORE_SHARES] + ["cpu_s"]
 # A scene that gave no model counts as this, so that it cannot vanish from the means.
-OF_FAILED = {"iou": 0.0, "seen": 0.0, "bound": None, "denied": None, "invented": None, "recall": 0.0, "precision": 0.0, "thin_kept": 0.0, "walls": 0.0, "horizontals": 0.0}
+OF_FAILED = {"iou": 0.0, "seen": 0.0, "bound": None, "denied": None, "invented": None, "recall": 0.0, "precision": 0.0, "thin_kept": 0.0, "walls": 0.0, "walls_loose": 0.0, "horizontals": 0.0}
 
 
 def mean(values):

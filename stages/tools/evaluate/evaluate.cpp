@@ -182,6 +182,7 @@ Scores evaluate(const TriangleMesh& model, const TriangleMesh& truth, const Trut
                             isprs_score(from_truth, from_model, SlopeClass::kHorizontal, buffer)});
   }
   scores.walls_matched = matched_share(from_truth, SlopeClass::kWall);
+  scores.walls_loosely_matched = matched_share(from_truth, SlopeClass::kWall, Match::kLoose);
   scores.horizontals_matched = matched_share(from_truth, SlopeClass::kHorizontal);
   if (scores.model_check.closed() && scores.model_check.oriented()) {
     score_spaces(model, truth, described, params, from_truth, truth_surface, cells, scanned, scores);

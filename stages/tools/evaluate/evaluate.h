@@ -56,8 +56,9 @@ struct Scores {
     IsprsScore walls, horizontals;
   };
   std::vector<Isprs> isprs;
-  /// Share of the truth's wall and horizontal area within 1 degree and 2 cm of a model surface.
-  std::optional<double> walls_matched, horizontals_matched;
+  /// Share of the truth's wall and horizontal area that a model surface follows closely; and of walls at
+  /// least loosely.
+  std::optional<double> walls_matched, horizontals_matched, walls_loosely_matched;
   std::optional<VolumeScores> volume;
   std::vector<RoomScore> rooms;
   std::vector<std::vector<std::int32_t>> merged;  ///< groups of rooms

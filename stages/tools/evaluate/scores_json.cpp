@@ -141,6 +141,7 @@ Json scores_json(const Scores& scores) {
           {"truth_mesh", check_json(scores.truth_check)},
           {"isprs", isprs},
           {"walls_within_1deg_2cm", or_null(scores.walls_matched)},
+          {"walls_within_1_5deg_4cm", or_null(scores.walls_loosely_matched)},
           {"horizontals_within_1deg_2cm", or_null(scores.horizontals_matched)},
           {"rooms", rooms_json(scores)},
           {"thin", thin_json(scores)},
