@@ -163,6 +163,16 @@ double total_length(const std::vector<Interval>& intervals) {
   return sum;
 }
 
+void clip(const std::vector<Interval>& parts, double lo, double hi, std::vector<Interval>& out) {
+  out.clear();
+  for (const Interval& part : parts) {
+    const Interval cut{std::max(part.lo, lo), std::min(part.hi, hi)};
+    if (cut.hi > cut.lo) {
+      out.push_back(cut);
+    }
+  }
+}
+
 void unite(std::vector<Interval>& intervals) {
   std::sort(intervals.begin(), intervals.end(),
             [](const Interval& a, const Interval& b) { return std::tie(a.lo, a.hi) < std::tie(b.lo, b.hi); });

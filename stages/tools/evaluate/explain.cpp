@@ -21,17 +21,6 @@ namespace {
 constexpr double kRounding = 1e-6;   // of the truth's coordinates [m]
 constexpr double kMisplaced = 0.10;  // farther from the truth's surface, a line or level is another one [m]
 
-/// The parts of sorted, disjoint `parts` within [lo, hi].
-void clip(const std::vector<Interval>& parts, double lo, double hi, std::vector<Interval>& out) {
-  out.clear();
-  for (const Interval& part : parts) {
-    const Interval cut{std::max(part.lo, lo), std::min(part.hi, hi)};
-    if (cut.hi > cut.lo) {
-      out.push_back(cut);
-    }
-  }
-}
-
 /// Distance in the plan from p to the nearest edge of a face that lies on a wall line; infinite without one.
 double distance_to_lines(const CellComplex& complex, std::int32_t face, const Vec2& p) {
   double nearest = std::numeric_limits<double>::infinity();
