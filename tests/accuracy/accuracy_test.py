@@ -50,6 +50,8 @@ class Choice(unittest.TestCase):
         self.assertEqual(len(self.names("uniform")), 5 * len(scenes.FAMILIES))
         self.assertEqual(len(self.names("house")), 5 * len(scenes.GROUPS))  # a house is in all of them
         self.assertEqual(self.names("tripod_thin_2"), ["tripod_thin_2"])
+        self.assertEqual(self.names("moved_uniform_house_1"), [f"moved_uniform_house_1_{pose}" for pose in moved.POSES])
+        self.assertEqual(self.names("uniform_house_1"), ["uniform_house_1"])
         self.assertEqual(self.names("random_thin_101*"), [f"random_thin_101_mu{mu}" for mu in scenes.RANDOM_MU_M])
         self.assertEqual(len(self.names("random")), 900)
         self.assertEqual(self.names("noise_*_curved_1, uniform_house_3"), ["uniform_house_3", "noise_1cm_curved_1", "noise_2cm_curved_1"])

@@ -61,7 +61,7 @@ def scan_files(scene, work):
 
 def shared_folder(scene):
     """What a scene shares with others, which therefore must not run at the same time: a work folder, or a base that is moved."""
-    return scene.get("work") or ("moved_" + scene["base"]["name"] if "base" in scene else scene["name"])
+    return scene.get("work") or (scene["kind"] if "base" in scene else scene["name"])
 
 
 def make_moved(build, scene, work):

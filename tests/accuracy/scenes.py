@@ -104,7 +104,7 @@ def moved_scenes(data):
     """Each base in every pose. One after the other: they share the base."""
     raised = {"name": "raised_floor", "scene": own_scene("paper_two_storeys", 400000)}
     bases = [raised] + [synthetic(*base) for base in MOVED] + [scene for scene in virtual(data) if scene["name"] in MOVED_VIRTUAL]
-    return [{"name": f"moved_{base['name']}_{pose}", "group": "moved", "kind": base["name"], "base": base, "pose": pose}
+    return [{"name": f"moved_{base['name']}_{pose}", "group": "moved", "kind": f"moved_{base['name']}", "base": base, "pose": pose}
             for base in bases for pose in moved.POSES]
 
 
