@@ -65,7 +65,7 @@ def same_file(a, b):
 def score(build, work, truth, truth_json):
     """The figures of the table."""
     scene_run.run([os.path.join(build, "bin", "evaluate"), "-q", "--threads", "1", "--work", work, "--truth", truth, "--truth-json", truth_json,
-                   *COARSE])
+                   "--cloud", os.path.join(work, "10_ingest", "cloud.h5"), *COARSE])
     scores = scene_run.read_json(os.path.join(work, "evaluate", "scores.json"))
     row = scene_run.row_of({**scores, "explanation": None}, scene_run.read_json(truth_json), [])
     return {key: row[key] for key in ("iou", "rooms", "missed", "merged")}

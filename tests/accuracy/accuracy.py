@@ -16,7 +16,7 @@ import scenes
 import table
 
 SOURCE = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
-DATA = os.path.join(SOURCE, "..", "shared", "data", "virtual")
+DATA = os.path.join(SOURCE, "..", "shared", "data")
 ROOT = os.environ.get("ROOT") or os.path.join(SOURCE, "work", "accuracy")
 PRESETS = os.path.join(SOURCE, "stages", "presets")
 
@@ -38,7 +38,7 @@ def preset_file(name):
 def run_all(chosen, build, jobs, root, preset):
     rows, tasks = {}, {}
     for scene in chosen:  # those that share a folder run one after the other
-        tasks.setdefault(scene.get("work", scene["name"]), []).append(scene)
+        tasks.setdefault(scene_run.shared_folder(scene), []).append(scene)
     with ThreadPoolExecutor(jobs) as pool:
         run_task = lambda task: [scene_run.run_scene(SOURCE, build, scene, root, preset, ROOT) for scene in task]  # noqa: E731
         for made in pool.map(run_task, tasks.values()):
@@ -63,7 +63,7 @@ def main():
     preset, root = preset_file(preset_name), os.path.join(ROOT, preset_name)
     every = scenes.all_scenes(DATA)
     if not any("folder" in scene for scene in every):
-        print("virtual buildings skipped: no ../shared/data")
+        print("virtual buildings and cases skipped: no ../shared/data")
     try:
         chosen = scenes.choose(every, os.environ.get("ONLY", ""))
     except ValueError as problem:

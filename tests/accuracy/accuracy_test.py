@@ -5,6 +5,7 @@
 usage: accuracy_test.py SOURCE_DIR BUILD_DIR
 """
 import json
+import math
 import os
 import subprocess
 import sys
@@ -15,6 +16,8 @@ import jsonschema
 
 import ablation
 import ablation_table
+import moved
+import scene_run
 import scenes
 import table
 
@@ -24,7 +27,8 @@ NOWHERE = "/nonexistent"
 
 def row(name, group="g", **figures):
     given = {"iou": 1.0, "recall": 1.0, "precision": 1.0, "rooms": 4, "found": 4, "missed": 0, "missed_scanned": 0, "merged": 0,
-             "bound": 1.0, "lost": {"labels": 0.1}, "extra": {"labels": 0.0}, "thin_kept": 1.0, "walls": 1.0, "horizontals": 1.0, "hausdorff_pct": 0.1, "valid": True, "cpu_s": 1.0}
+             "seen": 1.0, "denied": None, "invented": 0.0, "unentered_m3": 0.0, "unentered_found": 0, "unentered_unknown": 0, "unentered_denied": 0,
+             "bound": 1.0, "lost": {"labels": 0.1}, "extra": {"labels": 0.0}, "thin_kept": 1.0, "walls": 1.0, "walls_loose": 1.0, "horizontals": 1.0, "hausdorff_pct": 0.1, "valid": True, "cpu_s": 1.0}
     return {"name": name, "group": group, "kind": "office", **given, **figures}
 
 
@@ -37,13 +41,17 @@ class Choice(unittest.TestCase):
 
     def test_all_families_and_groups_have_five_seeds_and_unique_names(self):
         names = self.names("")
-        self.assertEqual(len(names), 5 * len(scenes.FAMILIES) * len(scenes.GROUPS))
+        of_families = [scene for scene in self.every if scene["group"] in scenes.GROUPS]
+        self.assertEqual(len(of_families), 5 * sum(len(scenes.FAMILIES_OF.get(group, scenes.FAMILIES)) for group in scenes.GROUPS))
+        self.assertLessEqual({scene["name"] for scene in of_families}, set(names))
         self.assertEqual(len(set(names)), len(names))
 
     def test_groups_families_scenes_and_patterns(self):
         self.assertEqual(len(self.names("uniform")), 5 * len(scenes.FAMILIES))
-        self.assertEqual(len(self.names("house")), 5 * len(scenes.GROUPS))
+        self.assertEqual(len(self.names("house")), 5 * len(scenes.GROUPS))  # a house is in all of them
         self.assertEqual(self.names("tripod_thin_2"), ["tripod_thin_2"])
+        self.assertEqual(self.names("moved_uniform_house_1"), [f"moved_uniform_house_1_{pose}" for pose in moved.POSES])
+        self.assertEqual(self.names("uniform_house_1"), ["uniform_house_1"])
         self.assertEqual(self.names("random_thin_101*"), [f"random_thin_101_mu{mu}" for mu in scenes.RANDOM_MU_M])
         self.assertEqual(len(self.names("random")), 900)
         self.assertEqual(self.names("noise_*_curved_1, uniform_house_3"), ["uniform_house_3", "noise_1cm_curved_1", "noise_2cm_curved_1"])
@@ -51,6 +59,12 @@ class Choice(unittest.TestCase):
     def test_a_word_that_names_nothing_is_an_error(self):
         with self.assertRaisesRegex(ValueError, "uniforms"):
             scenes.choose(self.every, "uniform uniforms")
+
+    def test_a_density_is_met_whatever_the_size_of_the_building(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = {"name": "x", "group": "g", "kind": "k", "points_per_m2": 20, "scene": {"name": "x", "random": {"family": "house", "seed": 1}}}
+            truth = scene_run.read_json(scene_run.make_scan(BUILD, scene, folder)[2])
+        self.assertAlmostEqual(truth["points"] / truth["surface_area"], 20, delta=0.01)
 
     def test_groups_differ_only_in_what_they_are_named_for(self):
         uniform, noisy = (scenes.synthetic(group, "house", 1)["scene"] for group in ("uniform", "noise_2cm"))
@@ -83,6 +97,83 @@ class Means(unittest.TestCase):
         defaults = [row("a", iou=0.9), row("b", iou=0.8, merged=1), row("only", iou=0.1)]
         text = table.beside([row("a", iou=0.6, missed=2), row("b", iou=0.5, merged=3), row("other")], defaults, "paper_2013").splitlines()
         self.assertEqual(text[-1].split(), ["g", "2", "0.8500", "0.5500", "0", "2", "1", "3"])
+
+
+    def test_denied_volume_is_a_share_of_all_that_nobody_entered(self):
+        group, = table.group_rows([row("a", denied=0.5, unentered_m3=10.0, unentered_denied=1), row("b", denied=0.0, unentered_m3=90.0), row("c")])
+        self.assertAlmostEqual(group["denied"], 0.05)
+        self.assertEqual(group["unentered_denied"], 1)
+        self.assertIsNone(table.group_rows([row("c")])[0]["denied"])
+
+
+class Moved(unittest.TestCase):
+    """Scans in other poses, and how the spread of their models is counted."""
+
+    def test_points_mesh_and_truth_move_together(self):
+        for pose in moved.POSES.values():
+            move = moved.mover(pose)
+            corners = [(0.0, 0.0, 0.0), (2.0, 0.0, 0.0), (0.0, 1.0, 3.0)]
+            off = moved.moved_off("OFF\n3 1 0\n" + "".join("%r %r %r\n" % corner for corner in corners) + "3 0 1 2\n", pose).splitlines()
+            self.assertEqual([tuple(map(float, line.split())) for line in off[2:5]], [move(*corner) for corner in corners])
+            self.assertEqual(off[5], "3 0 1 2")
+            truth = moved.moved_truth({"rooms": [{"name": "a", "floor": 0.0, "ceiling": 3.0, "center": [2.0, 0.0, 0.0], "polygon": [[0.0, 0.0], [2.0, 0.0], [0.0, 1.0]],
+                                                  "scanned": False}], "stations": [{"position": [2.0, 0.0, 0.0]}]}, pose)
+            room, = truth["rooms"]
+            self.assertEqual((room["polygon"][1], room["floor"], room["ceiling"]), (move(*corners[1])[:2], move(*corners[0])[2], move(*corners[2])[2]))
+            self.assertEqual((room["center"], truth["stations"][0]["position"], room["scanned"]), (move(*corners[1]), move(*corners[1]), False))
+            for a, b in ((0, 1), (1, 2)):  # a building stays as large as it is
+                self.assertAlmostEqual(math.dist(move(*corners[a]), move(*corners[b])), math.dist(corners[a], corners[b]), delta=0.002)
+
+    def test_a_scan_is_thinned_doubled_and_keeps_its_digits_far_from_the_origin(self):
+        points = [(i / 1000, 1.0, 2.0) for i in range(4000)]
+        self.assertEqual(moved.moved_points(points, {"copies": 2}), points * 2)
+        half = moved.moved_points(points, {"thin": 2})
+        self.assertTrue(set(half) < set(points))
+        self.assertAlmostEqual(len(half) / len(points), 0.5, delta=0.05)
+        lopsided = moved.moved_points(points, {"lopsided": 0.2})
+        self.assertEqual(lopsided[:2000], points[:2000])  # the other side of the middle
+        self.assertAlmostEqual(len(lopsided) / len(points), 0.9, delta=0.02)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "scan.ply")
+            far = moved.moved_points(points, moved.POSES["utm_1mm"])
+            moved.write_points(path, far)
+            self.assertEqual(moved.read_points(path), far)
+            self.assertEqual(far[1][0], 431207.318)
+
+    def test_a_truth_with_boxes_that_would_not_stay_boxes_is_refused(self):
+        with self.assertRaisesRegex(ValueError, "ignore_boxes"):
+            moved.moved_truth({"rooms": [], "stations": [], "ignore_boxes": [[[0, 0, 0], [1, 1, 1]]]}, {"turn": 17})
+
+    def test_the_spread_counts_pairs_of_poses_of_the_same_building(self):
+        def pose(kind, name, rooms, openings, volume):
+            return {**row(name, "moved", model={"rooms": rooms, "openings": openings, "volume_m3": volume}), "kind": kind}
+        rows = [pose("a", "a1", 4, 3, 100.0), pose("a", "a2", 4, 2, 100.2), pose("a", "a3", 5, 3, 110.0), pose("b", "b1", 9, 9, 500.0), pose("b", "b2", 9, 9, 500.0)]
+        group, = table.group_rows(rows)
+        self.assertEqual(group["spread"]["pairs"], 4)
+        self.assertEqual((group["spread"]["rooms_same"], group["spread"]["openings_same"], group["spread"]["volume_same"]), (0.5, 0.5, 0.5))
+        self.assertAlmostEqual(group["spread"]["volume"], 10 / 110)
+        text = table.table(rows, [group])
+        self.assertIn("a: rooms 4 (2) 5 (1), the same in 33.3 % of 3 pairs", text)
+        self.assertIsNone(table.group_rows([row("x")])[0]["spread"])
+
+
+class Cases(unittest.TestCase):
+    def test_cases_are_those_with_a_truth(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for path in ("both/scan.ply", "both/truth.off", "made/scene.json", "without/scan.ply", "sparse_12_per_m2/scan.ply"):
+                os.makedirs(os.path.join(folder, os.path.dirname(path)), exist_ok=True)
+                with open(os.path.join(folder, path), "w", encoding="utf-8") as text:
+                    text.write('{"name": "made"}')
+            found = {scene["kind"]: scene for scene in scenes.cases(folder)}
+        self.assertEqual(list(found), ["both", "made", "sparse_12_per_m2"])
+        self.assertEqual(scene_run.scan_files(found["both"], "/w"), [os.path.join(folder, "both", name) for name in ("scan.ply", "truth.off")] + ["/w/truth.json"])
+        self.assertEqual(found["made"]["scene"], {"name": "made"})
+        self.assertEqual(found["sparse_12_per_m2"]["scene"]["sampling"]["points"], 15000)
+        self.assertEqual(scene_run.scan_files(found["sparse_12_per_m2"], "/w")[:2], [os.path.join(folder, "sparse_12_per_m2", "scan.ply"), "/w/truth.off"])
+
+    def test_the_table_names_what_the_stages_warned_of(self):
+        text = table.table([row("cases_x", "cases", warnings=["too sparse"])], table.group_rows([row("cases_x", "cases")]))
+        self.assertIn("cases_x: too sparse", text)
 
 
 class Switches(unittest.TestCase):

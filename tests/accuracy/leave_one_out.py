@@ -35,10 +35,11 @@ def fail(text, hint, code="U01", status=2):
 
 
 def finished(scene):
-    """Whether `make accuracy` came to a model of this scene. Those with a mu of their own share their building's folder."""
+    """Whether `make accuracy` came to a model of this scene. Those with a mu of their own share their building's folder; a moved scene is
+    a building that is there already."""
     work = os.path.join(accuracy.ROOT, scene["name"])
     files = [os.path.join(work, name) for name in (*FINAL, "model.ply")] + scene_run.scan_files(scene, work)[1:]
-    return "mu_m" not in scene and all(map(os.path.isfile, files))
+    return "mu_m" not in scene and "base" not in scene and all(map(os.path.isfile, files))
 
 
 def read_scene(scene, build):

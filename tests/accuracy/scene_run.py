@@ -6,12 +6,17 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+import moved  # noqa: E402
 from pipeline_table import RUNS  # noqa: E402
 
 # Stages whose processor time counts: all that the model needs.
 STAGES = tuple(run.name for run in RUNS if run.name != "report")
 VOLUME_TOLERANCE = 1e-6  # relative: rounding of coordinates, far below any cell
 OUTER = ("MAKEFLAGS", "MFLAGS", "MAKELEVEL", "SCAN", "WORK", "CONFIG", "JOBS", "UP", "UNIT", "STATIONS", "TRUTH", "QUIET")
+
+
+# Of a model without volumes.
+OF_NO_ROOMS = {"volume_m3": 0.0, "denied_m3": 0.0, "found": 0, "unknown": 0, "denied": 0}
 
 
 class Failed(Exception):
@@ -50,7 +55,25 @@ def identity(path):
 def scan_files(scene, work):
     """Paths of scan, truth mesh and truth.json."""
     folder, scan = (scene["folder"], "cloud.ply") if "folder" in scene else (work, "scan.ply")
-    return [os.path.join(folder, name) for name in (scan, "truth.off", "truth.json")]
+    files = [os.path.join(folder, name) for name in (scan, "truth.off", "truth.json")]
+    return [scene.get("scan", files[0]), scene.get("truth", files[1]), files[2]]
+
+
+def shared_folder(scene):
+    """What a scene shares with others, which therefore must not run at the same time: a work folder, or a base that is moved."""
+    return scene.get("work") or (scene["kind"] if "base" in scene else scene["name"])
+
+
+def make_moved(build, scene, work):
+    """scan_files() of a scene whose base has been moved; the base lies in a folder beside."""
+    folder = os.path.join(os.path.dirname(work), shared_folder(scene))
+    os.makedirs(folder, exist_ok=True)
+    source, files = make_scan(build, scene["base"], folder), scan_files(scene, work)
+    stamp, key = os.path.join(work, "moved.stamp"), json.dumps([moved.POSES[scene["pose"]], *map(identity, source)])
+    if not is_fresh(stamp, key, files):
+        moved.write_moved(source, files, scene["pose"])
+        write_if_changed(stamp, key)
+    return files
 
 
 def make_scan(build, scene, work):
@@ -58,12 +81,23 @@ def make_scan(build, scene, work):
     files = scan_files(scene, work)
     if "folder" in scene:
         return files
+    if "base" in scene:
+        return make_moved(build, scene, work)
+    if "truth" in scene:
+        write_if_changed(files[2], '{"rooms": [], "stations": []}\n')
+        return files
     source, stamp = os.path.join(work, "scene.json"), os.path.join(work, "scene.stamp")
     program = os.path.join(build, "bin", "synthesize")
-    key = json.dumps(scene["scene"], indent=1) + subprocess.run([program, "--dump-params"], capture_output=True, text=True, check=True).stdout
-    if not is_fresh(stamp, key, files):
+    density = scene.get("points_per_m2")
+    key = f"{json.dumps(scene['scene'], indent=1)}{density or ''}" + subprocess.run([program, "--dump-params"], capture_output=True, text=True, check=True).stdout
+    made = [os.path.join(work, "scan.ply"), *files[1:]]
+    if not is_fresh(stamp, key, made):
         write_if_changed(source, json.dumps(scene["scene"], indent=1))
-        run([program, "-q", "--threads", "1", "--scene", source, "--scan-out", files[0], "--truth-out", files[1], "--truth-json", files[2]])
+        command = [program, "-q", "--threads", "1", "--scene", source, "--scan-out", made[0], "--truth-out", files[1], "--truth-json", files[2]]
+        if density:  # a first run measures the building
+            run([*command, "--set", "points=1000"])
+            command += ["--set", f"points={round(density * read_json(files[2])['surface_area'])}"]
+        run(command)
         write_if_changed(stamp, key)
     return files
 
@@ -91,11 +125,12 @@ def evaluate(build, scene, work, truth, truth_json):
     program, model = os.path.join(build, "bin", "evaluate"), os.path.join(work, "model.ply")
     scores, truth_cells, stamp = (os.path.join(work, "evaluate", name) for name in ("scores.json", "truth_cells.h5", "scores.stamp"))
     cells = [os.path.join(work, "90_final", name + ".h5") for name in ("cells", "labels", "data_terms")]
-    key = "\n".join(map(identity, (program, model, truth, truth_json, *cells)))
+    cloud = os.path.join(work, "10_ingest", "cloud.h5")
+    key = "\n".join(map(identity, (program, model, truth, truth_json, cloud, *cells)))
     if not is_fresh(stamp, key, [scores, truth_cells]):
         coarse = ["--set", "sample_spacing_m=0.1", "--set", "column_spacing_m=0.1"] if "mu_m" in scene else []
         run([program, "-q", "--threads", "1", "--work", work, "--truth", truth, "--truth-json", truth_json, *coarse,
-             "--cells", cells[0], "--labels", cells[1], "--terms", cells[2], "--cells-out", truth_cells])
+             "--cells", cells[0], "--labels", cells[1], "--terms", cells[2], "--cloud", cloud, "--cells-out", truth_cells])
         write_if_changed(stamp, key)
     return read_json(scores)
 
@@ -105,16 +140,24 @@ def cpu_seconds(work):
     return sum(read_json(os.path.join(work, "logs", name + ".json"))["cpu_s"] for name in STAGES)
 
 
+def share(part, whole):
+    return part / whole if whole else None
+
+
 def row_of(scores, truth, openings):
     """What the table shows of one scene; a model that is not closed has no volume and found no room."""
     volume, rooms, thin, mesh = (scores[name] or {} for name in ("volume", "rooms", "thin", "mesh"))
-    scanned = {room["name"] for room in truth["rooms"] if room.get("scanned", True)}
-    lost = [room["name"] for room in rooms.get("list", []) if not room["found"]]
+    scanned = [room for room in truth["rooms"] if room.get("scanned", True)]
+    lost = [room for room in rooms.get("list", []) if not room["found"]]
     count = rooms.get("truth", len(truth["rooms"]))
+    unentered = rooms.get("unentered") or OF_NO_ROOMS
     return {"iou": volume.get("iou", 0.0), "recall": volume.get("recall", 0.0), "precision": volume.get("precision", 0.0),
             "rooms": count, "found": rooms.get("found", 0), "missed": rooms.get("missed", count),
-            "missed_scanned": sum(name in scanned for name in lost) if rooms else len(scanned),
+            "missed_scanned": sum(room["scanned"] for room in lost) if rooms else len(scanned),
+            "seen": volume.get("seen", {}).get("iou", 0.0), "denied": share(unentered["denied_m3"], unentered["volume_m3"]),
+            "unentered_m3": unentered["volume_m3"], **{f"unentered_{answer}": unentered[answer] for answer in ("found", "unknown", "denied")},
             "merged": rooms.get("merged", 0), "thin_kept": thin.get("walls_kept"), "walls": scores["walls_within_1deg_2cm"],
+            "walls_loose": scores["walls_within_1_5deg_4cm"],
             "horizontals": scores["horizontals_within_1deg_2cm"],
             "hausdorff_pct": scores["distance"]["symmetric"]["hausdorff_pct"], **explained(scores, mesh, volume, openings)}
 
@@ -124,11 +167,11 @@ def explained(scores, mesh, volume, openings):
     cells and the openings that were cut."""
     explanation = scores["explanation"]
     if not explanation:
-        return {"bound": None, "lost": None, "extra": None, "valid": False}
+        return {"bound": None, "lost": None, "extra": None, "invented": None, "valid": False}
     empty = explanation["empty_m3"] + sum(opening["volume_m3"] for opening in openings)
     equal = abs(mesh["volume_m3"] - empty) <= VOLUME_TOLERANCE * empty
     shares = {kind: {cause: m3 / volume["truth_m3"] for cause, m3 in explanation[kind + "_m3"].items()} for kind in ("lost", "extra")}
-    return {"bound": explanation["bound_iou"], **shares, "valid": mesh["valid"] and equal}
+    return {"bound": explanation["bound_iou"], **shares, "invented": explanation["invented_m3"] / volume["truth_m3"], "valid": mesh["valid"] and equal}
 
 
 def make_model(source, build, work, scan, stations, config):
@@ -148,8 +191,10 @@ def run_scene(source, build, scene, root, preset="", scans=""):
     try:
         scan, truth, truth_json = make_scan(build, scene, scan_folder)
         make_model(source, build, work, scan, stations_file(scene, truth_json, work), config_file(scene, work, preset))
-        openings = read_json(os.path.join(work, "summary.json"))["openings"]
-        row.update(row_of(evaluate(build, scene, work, truth, truth_json), read_json(truth_json), openings))
+        summary = read_json(os.path.join(work, "summary.json"))
+        row.update(row_of(evaluate(build, scene, work, truth, truth_json), read_json(truth_json), summary["openings"]))
+        row["model"] = {"rooms": len(summary["rooms"]), "openings": len(summary["openings"]), "volume_m3": summary["totals"]["volume_m3"]}
+        row["warnings"] = [text for name in STAGES for text in read_json(os.path.join(work, "logs", name + ".json"))["warnings"]]
         row["cpu_s"] = round(cpu_seconds(work), 3)
     except Failed as failure:
         row["error"] = str(failure)

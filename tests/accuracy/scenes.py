@@ -2,11 +2,15 @@
 """The scenes of `make accuracy`, and the choice among them.
 
 A scene is a dict with `name` (unique, also the name of its folder), `group`, `kind` (family or building), and either `scene`, what
-`synthesize` makes it from (schemas/scene.md), or `folder`, where a scan and its truth lie; `stations`: with the scanner positions of the truth;
+`synthesize` makes it from (schemas/scene.md), with `points_per_m2` instead of its number of points, or `folder`, where a scan and its truth lie; `stations`: with the scanner positions of the truth;
 `mu_m`: a graphcut.mu_m of its own, in the work folder `work` that it shares with its building's other values.
+A case has `scan`, and either `truth`, a mesh, or `scene`, of which only the truth is taken. A moved scene has `base`, the scene that is moved, and `pose`.
 """
 import fnmatch
+import json
 import os
+
+import moved
 
 FAMILIES = ("office", "oblique", "multi_storey", "house", "thin", "curved")
 SEEDS = range(1, 6)
@@ -19,13 +23,26 @@ GROUPS = {
     "tripod": {"noise_m": 0.005, "holes": 0.1, "outliers": 0.01, "sampling": {"kind": "tripod"}, "random": {"unscanned": 0.1}},
     "noise_1cm": {"noise_m": 0.01},
     "noise_2cm": {"noise_m": 0.02},
+    "unknown": {"noise_m": 0.005, "holes": 0.1, "outliers": 0.01, "sampling": {"kind": "tripod"}, "random": {"unscanned": 0.3}},
+    "handheld": {"noise_m": 0.005, "handheld": {"warp_m": 0.02, "correlation_m": 1, "rounding_m": 0.05}},
     "closed": {"noise_m": 0.005, "clutter_per_m2": 0, "random": {"doors": False, "shafts": False}},
 }
+# Groups of some families only, and as dense as the scanners that they stand for, whatever the building's size [points per m^2].
+FAMILIES_OF = {"handheld": ("office", "oblique", "house")}
+DENSITIES = {"handheld": 300}
 # Buildings that try the mesh, not the accuracy: small scans, half of them from tripods, at three levels of detail; only when asked for.
 RANDOM_SEEDS = range(101, 151)
 RANDOM_MU_M = (0.05, 0.3, 1.0)
 RANDOM_POINTS = 150000
-VIRTUAL = ("bimwhale_large", "duplex", "fzk_haus", "institute_var2", "niedriha")
+VIRTUAL = ("bimwhale_large", "bodo_school", "duplex", "fzk_haus", "hom", "institute_var2", "kit_edc", "nibs_office", "niedriha", "smiley_west")
+
+
+# Scenes in several poses: all kinds of angles, storeys, scanners.
+MOVED = (("uniform", "house", 1), ("uniform", "oblique", 2), ("tripod", "multi_storey", 3))
+MOVED_VIRTUAL = ("virtual_duplex", "virtual_niedriha")
+# Cases that are a scene of this repository, or have its truth.
+CASES_OF_OWN_SCENES = {"lost_raised_floor": {"file": "paper_two_storeys", "points": 400000}, "sparse_12_per_m2": {"file": "paper_two_storeys", "points": 15000}}
+OWN_SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "data", "scenes")
 
 
 def synthetic(group, family, seed):
@@ -33,7 +50,8 @@ def synthetic(group, family, seed):
     scene = {"name": f"{group}_{family}_{seed}", "seed": seed, "clutter_per_m2": FURNITURE_PER_M2, **own}
     scene["sampling"] = {"points": POINTS, **own.get("sampling", {})}
     scene["random"] = {"family": family, "seed": seed, **own.get("random", {})}
-    return {"name": scene["name"], "group": group, "kind": family, "scene": scene}
+    density = {"points_per_m2": DENSITIES[group]} if group in DENSITIES else {}
+    return {"name": scene["name"], "group": group, "kind": family, "scene": scene, **density}
 
 
 def random_building(family, seed):
@@ -55,9 +73,45 @@ def virtual(folder):
             for group, stations in (("virtual", False), ("virtual_stations", True)) for kind in found]
 
 
+def cases(folder):
+    """Small scans and scenes that each stand for a kind of fault, as far as they have a truth; none when the folder is not there."""
+    found = []
+    for name in sorted(os.listdir(folder)) if os.path.isdir(folder) else []:
+        scan, truth, scene = (os.path.join(folder, name, file) for file in ("scan.ply", "truth.off", "scene.json"))
+        case = {"name": f"cases_{name}", "group": "cases", "kind": name}
+        if os.path.isfile(scan) and os.path.isfile(truth):
+            found.append({**case, "scan": scan, "truth": truth})
+        elif os.path.isfile(scene):
+            found.append({**case, "scene": read_scene(scene)})
+        elif name in CASES_OF_OWN_SCENES:
+            found.append({**case, "scene": own_scene(**CASES_OF_OWN_SCENES[name]), **({"scan": scan} if os.path.isfile(scan) else {})})
+    return found
+
+
+def read_scene(path):
+    with open(path, encoding="utf-8") as text:
+        return json.load(text)
+
+
+def own_scene(file, points):
+    """A scene of tests/data/scenes/ with so many points."""
+    scene = read_scene(os.path.join(OWN_SCENES, file + ".json"))
+    scene["sampling"] = {**scene["sampling"], "points": points}
+    return scene
+
+
+def moved_scenes(data):
+    """Each base in every pose. One after the other: they share the base."""
+    raised = {"name": "raised_floor", "scene": own_scene("paper_two_storeys", 400000)}
+    bases = [raised] + [synthetic(*base) for base in MOVED] + [scene for scene in virtual(data) if scene["name"] in MOVED_VIRTUAL]
+    return [{"name": f"moved_{base['name']}_{pose}", "group": "moved", "kind": f"moved_{base['name']}", "base": base, "pose": pose}
+            for base in bases for pose in moved.POSES]
+
+
 def all_scenes(data):
-    """Every scene, the longest first; `data` is the folder of the virtual buildings."""
-    usual = virtual(data) + [synthetic(group, family, seed) for group in GROUPS for family in FAMILIES for seed in SEEDS]
+    """Every scene, the longest first; `data` is the folder of the data to judge by, with virtual/ and cases/."""
+    buildings = os.path.join(data, "virtual")
+    usual = virtual(buildings) + moved_scenes(buildings) + cases(os.path.join(data, "cases")) + [synthetic(group, family, seed) for group in GROUPS for family in FAMILIES_OF.get(group, FAMILIES) for seed in SEEDS]
     return usual + [scene for seed in RANDOM_SEEDS for family in FAMILIES for scene in random_building(family, seed)]
 
 

@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Means of groups, the table of `make accuracy`, and what changed since an earlier one."""
+import collections
+import itertools
 
 # key, head, width, decimals; counts are summed over a group, shares averaged.
-SHARES = (("iou", "IoU", 7, 4), ("bound", "bound", 7, 4), ("recall", "recall", 7, 4), ("precision", "precis.", 7, 4))
-COUNTS = ("rooms", "found", "merged", "missed", "missed_scanned")
-MORE_SHARES = (("thin_kept", "thin", 6, 3), ("walls", "walls", 6, 3), ("horizontals", "horiz.", 6, 3), ("hausdorff_pct", "Hausd.%", 8, 3))
+SHARES = (("iou", "IoU", 7, 4), ("bound", "bound", 7, 4), ("seen", "seen", 7, 4), ("recall", "recall", 7, 4), ("precision", "precis.", 7, 4))
+COUNTS = ("rooms", "found", "merged", "missed", "missed_scanned", "unentered_found", "unentered_unknown", "unentered_denied")
+MORE_SHARES = (("denied", "denied", 6, 3), ("invented", "invent.", 7, 4), ("thin_kept", "thin", 6, 3), ("walls", "walls", 6, 3), ("walls_loose", "4 cm", 6, 3), ("horizontals", "horiz.", 6, 3), ("hausdorff_pct", "Hausd.%", 8, 3))
 AVERAGED = [column[0] for column in SHARES + MORE_SHARES] + ["cpu_s"]
 # A scene that gave no model counts as this, so that it cannot vanish from the means.
-OF_FAILED = {"iou": 0.0, "bound": None, "recall": 0.0, "precision": 0.0, "thin_kept": 0.0, "walls": 0.0, "horizontals": 0.0}
+OF_FAILED = {"iou": 0.0, "seen": 0.0, "bound": None, "denied": None, "invented": None, "recall": 0.0, "precision": 0.0, "thin_kept": 0.0, "walls": 0.0, "walls_loose": 0.0, "horizontals": 0.0}
 
 
 def mean(values):
@@ -24,6 +26,11 @@ def group_rows(rows):
         summary = {"name": group, "scenes": len(members), "failed": sum("error" in row for row in members)}
         summary.update({key: mean([row.get(key) for row in complete]) for key in AVERAGED})
         summary.update({key: sum(row.get(key, 0) for row in members) for key in COUNTS})
+        entered = [row for row in members if row.get("unentered_m3")]
+        if entered:  # by volume, not by scene: a share of little says little
+            volume = summary["unentered_m3"] = sum(row["unentered_m3"] for row in entered)
+            summary["denied"] = sum(row["denied"] * row["unentered_m3"] for row in entered) / volume
+        summary["spread"] = spread(members) if group == "moved" else None
         summary["valid"] = sum(bool(row.get("valid")) for row in members)
         summary["worst_iou"] = min(row["iou"] for row in complete)
         for kind in ("lost", "extra"):
@@ -42,7 +49,8 @@ def line(row, width):
     if "error" in row:
         return f"{cells[0]}  FAILED: {row['error']}"
     cells += [number(row[key], w, d) for key, _, w, d in SHARES]
-    cells += [f"{row['found']:>4}/{row['rooms']:<4}", f"{row['merged']:>6}", f"{row['missed']:>6}", f"{row['missed_scanned']:>7}"]
+    cells += [f"{row['found']:>4}/{row['rooms']:<4}", f"{row['merged']:>6}", f"{row['missed']:>6}", f"{row['missed_scanned']:>7}",
+              f"{row['unentered_found']:>5}/{row['unentered_unknown']}/{row['unentered_denied']:<5}"]
     cells += [number(row[key], w, d) for key, _, w, d in MORE_SHARES]
     valid = f"{row['valid']}/{row['scenes']}" if "scenes" in row else ("yes" if row["valid"] else "NO")
     return " ".join(cells + [f"{valid:>6}", number(row["cpu_s"], 6, 2)])
@@ -50,8 +58,48 @@ def line(row, width):
 
 def head(width):
     names = [f"{'scene':<{width}}"] + [f"{name:>{w}}" for _, name, w, _ in SHARES]
-    names += [f"{'rooms':<9}", "merged", "missed", "scanned"] + [f"{name:>{w}}" for _, name, w, _ in MORE_SHARES]
+    names += [f"{'rooms':<9}", "merged", "missed", "scanned", f"{'f/unkn./d':>11}"] + [f"{name:>{w}}" for _, name, w, _ in MORE_SHARES]
     return " ".join(names + [f"{'valid':>6}", f"{'cpu s':>6}"])
+
+
+def spread(rows):
+    """How much the models of one building differ over its poses: over all pairs of poses that gave a model, the shares with as many rooms,
+    as many openings, and volumes within 0.3 %; `volume`: the largest relative difference."""
+    pairs = []
+    for kind in dict.fromkeys(row["kind"] for row in rows):
+        models = [row["model"] for row in rows if row["kind"] == kind and "model" in row]
+        pairs += itertools.combinations(models, 2)
+    if not pairs:
+        return None
+    differences_m3 = [abs(a["volume_m3"] - b["volume_m3"]) / max(a["volume_m3"], b["volume_m3"]) for a, b in pairs]
+    same = {f"{key}_same": sum(a[key] == b[key] for a, b in pairs) / len(pairs) for key in ("rooms", "openings")}
+    return {"pairs": len(pairs), **same, "volume_same": sum(d <= 0.003 for d in differences_m3) / len(pairs), "volume": max(differences_m3)}
+
+
+def spread_lines(rows):
+    """Per building that was moved, what each pose made of it."""
+    moved = [row for row in rows if row["group"] == "moved"]
+    lines = []
+    for kind in dict.fromkeys(row["kind"] for row in moved):
+        members = [row for row in moved if row["kind"] == kind]
+        values = spread(members)
+        if values:
+            models = [row["model"] for row in members if "model" in row]
+            lines.append(f"{kind}: rooms {tally(models, 'rooms')}, the same in {100 * values['rooms_same']:.1f} % of {values['pairs']} pairs; openings "
+                         f"{tally(models, 'openings')}, {100 * values['openings_same']:.1f} %; volume within 0.3 % in {100 * values['volume_same']:.1f} %, "
+                         f"differs by up to {100 * values['volume']:.2f} %")
+    return ["", "spread over poses"] + lines if lines else []
+
+
+def tally(models, key):
+    counts = collections.Counter(model[key] for model in models)
+    return " ".join(f"{value} ({count})" for value, count in sorted(counts.items()))
+
+
+def warning_lines(rows):
+    """What the stages said of each case: a fault that is named is half a fault."""
+    lines = [f"{row['name']}: {text}" for row in rows if row["group"] == "cases" for text in row.get("warnings", [])]
+    return ["", "warnings of the cases"] + lines if lines else []
 
 
 def shown(row):
@@ -70,7 +118,7 @@ def table(rows, groups):
         lines += ["", "wrong because of (lost + extra, % of the truth's volume)",
                   " ".join([" " * width] + [f"{name:>16}" for name in names])]
         lines += [" ".join([f"{group['name']:<{width}}"] + [cause_cell(group, name) for name in names]) for group in causes]
-    return "\n".join(lines)
+    return "\n".join(lines + spread_lines(rows) + warning_lines(rows))
 
 
 def cause_cell(group, name):
@@ -112,5 +160,5 @@ def differences(old, new):
         if a is None or b is None or round(a, decimals) == round(b, decimals):
             continue
         parts.append(f"{key} {a:.{decimals}f} -> {b:.{decimals}f} ({b - a:+.{decimals}f})")
-    parts += [f"{key} {old[key]} -> {new[key]}" for key in (*COUNTS, "valid") if old.get(key) != new.get(key)]
+    parts += [f"{key} {old[key]} -> {new[key]}" for key in (*COUNTS, "valid") if key in old and old[key] != new.get(key)]
     return [f"{new['name']}: " + ", ".join(parts)] if parts else []

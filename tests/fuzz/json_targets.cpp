@@ -74,7 +74,7 @@ void scores(std::string_view bytes) {
 
 void truth_json(std::string_view bytes) {
   const PrivateFile file(bytes, ".json");
-  read_described_rooms(file.path(), {});
+  read_truth_description(file.path(), {});
 }
 
 void params_dump(std::string_view bytes) {

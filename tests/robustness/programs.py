@@ -44,8 +44,8 @@ SCORES = ["evaluate/scores.json", "evaluate/distance.ply", "evaluate/distance.pn
 
 
 def evaluate(truth):
-    return Program("evaluate", [MODEL, truth, TRUTH_JSON, FCELLS, FLABELS, FTERMS], SCORES,
-                   ["--work", ".", "--truth", truth, "--truth-json", TRUTH_JSON, "--cells", FCELLS, "--labels", FLABELS, "--terms", FTERMS,
+    return Program("evaluate", [MODEL, truth, TRUTH_JSON, FCELLS, FLABELS, FTERMS, CLOUD], SCORES,
+                   ["--work", ".", "--truth", truth, "--truth-json", TRUTH_JSON, "--cells", FCELLS, "--labels", FLABELS, "--terms", FTERMS, "--cloud", CLOUD,
                     "--set", "sample_spacing_m=0.2", "--set", "column_spacing_m=0.2"])
 
 

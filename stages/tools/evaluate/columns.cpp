@@ -163,4 +163,49 @@ double total_length(const std::vector<Interval>& intervals) {
   return sum;
 }
 
+void clip(const std::vector<Interval>& parts, double lo, double hi, std::vector<Interval>& out) {
+  out.clear();
+  for (const Interval& part : parts) {
+    const Interval cut{std::max(part.lo, lo), std::min(part.hi, hi)};
+    if (cut.hi > cut.lo) {
+      out.push_back(cut);
+    }
+  }
+}
+
+void unite(std::vector<Interval>& intervals) {
+  std::sort(intervals.begin(), intervals.end(),
+            [](const Interval& a, const Interval& b) { return std::tie(a.lo, a.hi) < std::tie(b.lo, b.hi); });
+  std::size_t kept = 0;
+  for (const Interval& next : intervals) {
+    if (kept > 0 && next.lo <= intervals[kept - 1].hi) {
+      intervals[kept - 1].hi = std::max(intervals[kept - 1].hi, next.hi);
+    } else {
+      intervals[kept++] = next;
+    }
+  }
+  intervals.resize(kept);
+}
+
+void subtract(const std::vector<Interval>& from, const std::vector<Interval>& what,
+              std::vector<Interval>& out) {
+  out.clear();
+  std::size_t first = 0;
+  for (const Interval& part : from) {
+    while (first < what.size() && what[first].hi <= part.lo) {
+      ++first;
+    }
+    double lo = part.lo;
+    for (std::size_t i = first; i < what.size() && what[i].lo < part.hi; ++i) {
+      if (what[i].lo > lo) {
+        out.push_back({lo, what[i].lo});
+      }
+      lo = std::max(lo, what[i].hi);
+    }
+    if (part.hi > lo) {
+      out.push_back({lo, part.hi});
+    }
+  }
+}
+
 }  // namespace roomcut::evaluate

@@ -56,5 +56,12 @@ void enclosed(const std::vector<Crossing>& crossings, std::int32_t component, st
 /// Length of the intersection of two sorted lists of disjoint intervals.
 double overlap(const std::vector<Interval>& a, const std::vector<Interval>& b);
 double total_length(const std::vector<Interval>& intervals);
+/// The parts of sorted, disjoint `parts` within [lo, hi].
+void clip(const std::vector<Interval>& parts, double lo, double hi, std::vector<Interval>& out);
+/// Sorts intervals and joins those that meet.
+void unite(std::vector<Interval>& intervals);
+/// What sorted, disjoint `from` holds beside sorted, disjoint `what`.
+void subtract(const std::vector<Interval>& from, const std::vector<Interval>& what,
+              std::vector<Interval>& out);
 
 }  // namespace roomcut::evaluate

@@ -73,36 +73,50 @@ std::function<bool(const Vec3&)> opening_test(const LabelledCells* cells) {
   };
 }
 
-void score_spaces(const TriangleMesh& model, const TriangleMesh& truth,
-                  const std::vector<DescribedRoom>& described, const EvaluateParams& params,
-                  const SurfaceDistances& truth_samples, const MeasuredSurface& truth_surface,
-                  const LabelledCells* cells, Scores& scores) {
+RoomScore room_score(const TruthRoom& room, const VolumeScores& volume, std::size_t index, double share) {
+  RoomScore out{room, volume.room_m3[index], volume.room_empty_m3[index], volume.room_unknown_m3[index],
+                RoomAnswer::kDenied};
+  if (out.empty_m3 > share * out.volume_m3) {
+    out.answer = RoomAnswer::kFound;
+  } else if (out.empty_m3 + out.unknown_m3 > share * out.volume_m3) {
+    out.answer = RoomAnswer::kUnknown;
+  }
+  return out;
+}
+
+void score_spaces(const TriangleMesh& model, const TriangleMesh& truth, const TruthDescription& described,
+                  const EvaluateParams& params, const SurfaceDistances& truth_samples,
+                  const MeasuredSurface& truth_surface, const LabelledCells* cells,
+                  const ScannedSurface* scanned, Scores& scores) {
   const Columns truth_columns(truth);
   const Columns model_columns(model);
-  const std::vector<TruthRoom> rooms = locate_rooms(described, truth_columns);
+  const std::vector<TruthRoom> rooms = locate_rooms(described.rooms, truth_columns);
   const RoomFinder finder(rooms, truth_columns);
   const Bounds3 a = bounds(model);
   const Bounds3 b = bounds(truth);
   const Vec2 lo = a.lo.cwiseMin(b.lo).head<2>();
   const Vec2 hi = a.hi.cwiseMax(b.hi).head<2>();
   scores.column_spacing_m = column_spacing(params.column_spacing_m, (hi - lo).x() * (hi - lo).y());
-  scores.volume = compare_volumes(truth_columns, model_columns, rooms, finder, lo, hi,
-                                  scores.column_spacing_m, kColumnSeed);
+  std::optional<LabelledSpace> unknown;
+  if (cells != nullptr) {
+    unknown.emplace(cells->complex, cells->label, kUnknownLabel);
+  }
+  scores.volume = compare_volumes(
+      {truth_columns, model_columns, rooms, finder, described.ignored, unknown ? &*unknown : nullptr}, lo, hi,
+      scores.column_spacing_m, kColumnSeed);
   std::vector<std::uint8_t> found;
   for (std::size_t i = 0; i < rooms.size(); ++i) {
-    RoomScore room{rooms[i], scores.volume->room_m3[i], scores.volume->room_empty_m3[i], false};
-    room.found = room.empty_m3 > params.found_share * room.volume_m3;
-    found.push_back(room.found ? 1 : 0);
-    scores.rooms.push_back(std::move(room));
+    scores.rooms.push_back(room_score(rooms[i], *scores.volume, i, params.found_share));
+    found.push_back(scores.rooms.back().found() ? 1 : 0);
   }
   scores.thin = score_thin_walls(truth_samples, truth_surface.all(), finder, model_columns,
-                                 params.thin_wall_m, opening_test(cells));
+                                 params.thin_wall_m, opening_test(cells), scanned);
   scores.merged = merged_rooms(scores.thin, found);
   if (cells != nullptr) {
-    scores.explanation =
-        explain({cells->complex, cells->label, cells->terms ? &*cells->terms : nullptr, truth_columns,
-                 model_columns, truth_surface, rooms, finder, found, scores.thin, b},
-                scores.column_spacing_m, kColumnSeed);
+    scores.explanation = explain(
+        {cells->complex, cells->label, cells->terms ? &*cells->terms : nullptr, truth_columns, model_columns,
+         truth_surface, rooms, finder, found, scores.thin, described.ignored, params.thin_wall_m, b},
+        scores.column_spacing_m, kColumnSeed);
   }
 }
 
@@ -110,7 +124,20 @@ void score_spaces(const TriangleMesh& model, const TriangleMesh& truth,
 
 std::size_t Scores::found() const {
   return static_cast<std::size_t>(
-      std::count_if(rooms.begin(), rooms.end(), [](const RoomScore& room) { return room.found; }));
+      std::count_if(rooms.begin(), rooms.end(), [](const RoomScore& room) { return room.found(); }));
+}
+
+UnenteredScores Scores::unentered() const {
+  UnenteredScores out;
+  for (const RoomScore& room : rooms) {
+    if (!room.room.scanned) {
+      ++out.rooms[static_cast<std::size_t>(room.answer)];
+      out.volume_m3 += room.volume_m3;
+      out.empty_m3 += room.empty_m3;
+      out.unknown_m3 += room.unknown_m3;
+    }
+  }
+  return out;
 }
 
 std::size_t Scores::in_merged_groups() const {
@@ -132,8 +159,8 @@ TriangleMesh prepared(const TriangleMesh& mesh, const ComparedAxes& axes) {
   return out;
 }
 
-Scores evaluate(const TriangleMesh& model, const TriangleMesh& truth, const std::vector<DescribedRoom>& rooms,
-                const EvaluateParams& params, const LabelledCells* cells) {
+Scores evaluate(const TriangleMesh& model, const TriangleMesh& truth, const TruthDescription& described,
+                const EvaluateParams& params, const LabelledCells* cells, const ScannedSurface* scanned) {
   Scores scores;
   scores.truth_check = check_mesh(truth);
   require_closed_truth(scores.truth_check);
@@ -142,7 +169,9 @@ Scores evaluate(const TriangleMesh& model, const TriangleMesh& truth, const std:
   scores.sample_spacing_m = sample_spacing(params.sample_spacing_m, model, truth, scores.truth_check.area_m2);
   const MeasuredSurface model_surface(model);
   const MeasuredSurface truth_surface(truth);
-  const auto from_model = measure(model, model_surface, truth_surface, scores.sample_spacing_m, kModelSeed);
+  const auto counts = [&described](const Vec3& p) { return !described.ignored.contains(p); };
+  const auto from_model =
+      measure(model, model_surface, truth_surface, scores.sample_spacing_m, kModelSeed, counts);
   const auto from_truth = measure(truth, truth_surface, model_surface, scores.sample_spacing_m, kTruthSeed);
   scores.model_samples = from_model.samples.size();
   scores.truth_samples = from_truth.samples.size();
@@ -153,9 +182,10 @@ Scores evaluate(const TriangleMesh& model, const TriangleMesh& truth, const std:
                             isprs_score(from_truth, from_model, SlopeClass::kHorizontal, buffer)});
   }
   scores.walls_matched = matched_share(from_truth, SlopeClass::kWall);
+  scores.walls_loosely_matched = matched_share(from_truth, SlopeClass::kWall, Match::kLoose);
   scores.horizontals_matched = matched_share(from_truth, SlopeClass::kHorizontal);
   if (scores.model_check.closed() && scores.model_check.oriented()) {
-    score_spaces(model, truth, rooms, params, from_truth, truth_surface, cells, scores);
+    score_spaces(model, truth, described, params, from_truth, truth_surface, cells, scanned, scores);
   }
   return scores;
 }

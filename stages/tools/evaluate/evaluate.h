@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/mesh/mesh_check.h"
+#include "stages/tools/evaluate/compared_axes.h"
 #include "stages/tools/evaluate/explain.h"
 #include "stages/tools/evaluate/params.h"
+#include "stages/tools/evaluate/scanned_surface.h"
 #include "stages/tools/evaluate/surface_scores.h"
 #include "stages/tools/evaluate/thin_walls.h"
 #include "stages/tools/evaluate/truth_rooms.h"
@@ -18,10 +21,27 @@ namespace roomcut::evaluate {
 
 inline constexpr std::array<double, 4> kBuffers = {0.01, 0.02, 0.05, 0.10};  ///< of the ISPRS scores [m]
 
+/// What the model says of a room of the truth.
+enum class RoomAnswer : std::uint8_t {
+  kFound,    ///< most of it is empty
+  kUnknown,  ///< no, but most of it is empty or labelled unknown
+  kDenied,
+};
+inline constexpr std::array<const char*, 3> kRoomAnswers = {"found", "unknown", "denied"};
+
 struct RoomScore {
   TruthRoom room;
-  double volume_m3 = 0, empty_m3 = 0;
-  bool found = false;
+  double volume_m3 = 0;
+  double empty_m3 = 0, unknown_m3 = 0;  ///< parts of it, in the model
+  RoomAnswer answer = RoomAnswer::kDenied;
+  bool found() const { return answer == RoomAnswer::kFound; }
+};
+
+/// Rooms of the truth in which no scanner stood: a model cannot know them, but may have the space.
+struct UnenteredScores {
+  std::array<std::size_t, 3> rooms = {};  ///< by RoomAnswer
+  double volume_m3 = 0, empty_m3 = 0, unknown_m3 = 0;
+  double denied_m3() const { return std::max(0.0, volume_m3 - empty_m3 - unknown_m3); }
 };
 
 /// How good a model is. What needs volumes is empty for a model that is not closed.
@@ -36,8 +56,9 @@ struct Scores {
     IsprsScore walls, horizontals;
   };
   std::vector<Isprs> isprs;
-  /// Share of the truth's wall and horizontal area within 1 degree and 2 cm of a model surface.
-  std::optional<double> walls_matched, horizontals_matched;
+  /// Share of the truth's wall and horizontal area that a model surface follows closely; and of walls at
+  /// least loosely.
+  std::optional<double> walls_matched, horizontals_matched, walls_loosely_matched;
   std::optional<VolumeScores> volume;
   std::vector<RoomScore> rooms;
   std::vector<std::vector<std::int32_t>> merged;  ///< groups of rooms
@@ -45,27 +66,28 @@ struct Scores {
   std::optional<Explanation> explanation;
 
   std::size_t found() const;
+  UnenteredScores unentered() const;
   std::size_t in_merged_groups() const;
-};
-
-/// The axes in which model, truth and cells are compared: moved near the origin, so that sums and products
-/// stay small, and turned as the cells of a levelled scan are.
-struct ComparedAxes {
-  Vec3 origin{0, 0, 0};  ///< in the coordinates of the files
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  Vec3 from_file(const Vec3& p) const { return turn * (p - origin); }
 };
 
 /// Prepares a mesh as it came from a file: equal vertices welded, brought into `axes`, normals out of the
 /// enclosed space.
 TriangleMesh prepared(const TriangleMesh& mesh, const ComparedAxes& axes);
 
-/// Scores `model` against `truth`, both prepared() with the same axes; `rooms` in them, too; `cells`, if
-/// given, are those that the model was made of, and are explained. Throws StageError(kMeshNotClosed) when the
+/// What a truth.json says beside the truth's mesh, in the axes of the comparison.
+struct TruthDescription {
+  std::vector<DescribedRoom> rooms;
+  IgnoredSpace ignored;
+};
+
+/// Scores `model` against `truth`, both prepared() with the same axes; `described` in them, too; `cells`, if
+/// given, are those that the model was made of, and are explained; `scanned`, if given, is the scan that it
+/// was made of: walls of which it shows nothing merge no rooms. Throws StageError(kMeshNotClosed) when the
 /// truth is not a closed, oriented mesh, kTooComplex when a chosen spacing asks for more than 20 million
 /// samples; with `auto` the spacing grows until 1 million do. Parallel; the same result for any number of
 /// threads.
-Scores evaluate(const TriangleMesh& model, const TriangleMesh& truth, const std::vector<DescribedRoom>& rooms,
-                const EvaluateParams& params, const LabelledCells* cells = nullptr);
+Scores evaluate(const TriangleMesh& model, const TriangleMesh& truth, const TruthDescription& described,
+                const EvaluateParams& params, const LabelledCells* cells = nullptr,
+                const ScannedSurface* scanned = nullptr);
 
 }  // namespace roomcut::evaluate

@@ -12,15 +12,18 @@
 
 namespace roomcut::evaluate {
 
-/// The `rooms` of a truth.json, brought into `axes`: name, floor, ceiling and either `polygon` ([[x, y], …])
-/// or a point in it (`center`). Other members are ignored. Throws StageError(kMeshFormat) for what is not
-/// that.
-std::vector<DescribedRoom> read_described_rooms(const std::filesystem::path& path, const ComparedAxes& axes);
+/// Of a truth.json, brought into `axes`: the `rooms`: name, floor, ceiling, either `polygon` ([[x, y], …]) or
+/// a point in it (`center`), and optionally `scanned`; optionally `ignore_boxes`: [[lower corner], [upper
+/// corner]] each. Other members are ignored. Throws StageError(kMeshFormat) for what is not that.
+TruthDescription read_truth_description(const std::filesystem::path& path, const ComparedAxes& axes);
 
 /// The cells, labels and, if given, data terms of one pass, brought into `axes`, whose turn becomes that of
 /// the cells: their faces stay upright and level. Errors as in cells_io.h.
 LabelledCells read_labelled_cells(const std::filesystem::path& cells, const std::filesystem::path& labels,
                                   const std::filesystem::path& terms, ComparedAxes& axes);
+
+/// Where the points of a cloud.h5 lie. Errors as in cloud_io.h.
+ScannedSurface read_scanned_surface(const std::filesystem::path& path, const ComparedAxes& axes);
 
 /// The member `explanation` of scores.json, and its rows in the table.
 Json explanation_json(const Explanation& explanation, const Scores& scores);

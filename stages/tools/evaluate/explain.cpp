@@ -11,6 +11,7 @@
 
 #include "common/cells/face_locator.h"
 #include "common/random/counter_random.h"
+#include "stages/tools/evaluate/invented.h"
 #include "stages/tools/evaluate/lost_walls.h"
 
 namespace roomcut::evaluate {
@@ -19,32 +20,6 @@ namespace {
 
 constexpr double kRounding = 1e-6;   // of the truth's coordinates [m]
 constexpr double kMisplaced = 0.10;  // farther from the truth's surface, a line or level is another one [m]
-
-/// The parts of sorted, disjoint `parts` within [lo, hi].
-void clip(const std::vector<Interval>& parts, double lo, double hi, std::vector<Interval>& out) {
-  out.clear();
-  for (const Interval& part : parts) {
-    const Interval cut{std::max(part.lo, lo), std::min(part.hi, hi)};
-    if (cut.hi > cut.lo) {
-      out.push_back(cut);
-    }
-  }
-}
-
-/// What [lo, hi] holds beside `parts`, which are sorted, disjoint and within it.
-void complement(const std::vector<Interval>& parts, double lo, double hi, std::vector<Interval>& out) {
-  out.clear();
-  double from = lo;
-  for (const Interval& part : parts) {
-    if (part.lo > from) {
-      out.push_back({from, part.lo});
-    }
-    from = part.hi;
-  }
-  if (hi > from) {
-    out.push_back({from, hi});
-  }
-}
 
 /// Distance in the plan from p to the nearest edge of a face that lies on a wall line; infinite without one.
 double distance_to_lines(const CellComplex& complex, std::int32_t face, const Vec2& p) {
@@ -74,6 +49,7 @@ struct RowSums {
   double truth = 0;
   std::array<double, kCauses> lost = {}, extra = {};
   std::vector<RoomPart> rooms;
+  std::vector<InventedPart> invented;
 };
 
 class Comparison {
@@ -86,7 +62,7 @@ class Comparison {
     double x, y;
     std::int32_t face;
     std::vector<Crossing> crossings;
-    std::vector<Interval> parts, model;  // empty in the truth, in the model
+    std::vector<Interval> parts, model, ignored;  // empty in the truth, in the model; counted nowhere
   };
   void column_at(std::int64_t ix, std::int64_t iy, Column& column) const;
   void measure_cells(std::int64_t iy, RowSums& sums) const;
@@ -148,11 +124,13 @@ void Comparison::column_at(std::int64_t ix, std::int64_t iy, Column& column) con
   std::vector<Crossing> crossings;
   input_.model.crossings(column.x, column.y, crossings);
   enclosed(crossings, -1, column.model);
+  input_.ignored.at(column.x, column.y, column.parts, column.ignored);
 }
 
 void Comparison::measure_cells(std::int64_t iy, RowSums& sums) const {
   Column column;
   std::vector<Interval> inside;
+  std::vector<Interval> ignored;
   for (std::int64_t ix = 0; ix < nx_; ++ix) {
     column_at(ix, iy, column);
     sums.truth += total_length(column.parts);
@@ -163,7 +141,8 @@ void Comparison::measure_cells(std::int64_t iy, RowSums& sums) const {
       const std::size_t cell = complex_.cell(static_cast<std::size_t>(column.face), k);
       clip(column.parts, complex_.levels[k], complex_.levels[k + 1], inside);
       sums.cell_truth.emplace_back(cell, total_length(inside));
-      sums.cell_height.emplace_back(cell, complex_.height(k));
+      clip(column.ignored, complex_.levels[k], complex_.levels[k + 1], ignored);
+      sums.cell_height.emplace_back(cell, complex_.height(k) - total_length(ignored));
     }
   }
 }
@@ -222,21 +201,16 @@ Cause Comparison::geometry(const Column& column, std::size_t layer, const Interv
 /// What an opening makes of a solid cell: takes from `wrong` what is empty in the model after all.
 void Comparison::judge_opening(const Column& column, double lo, double hi, std::vector<Interval>& wrong,
                                RowSums& sums) const {
+  std::vector<Interval> inside;
   std::vector<Interval> cut;
-  clip(column.model, lo, hi, cut);
+  clip(column.model, lo, hi, inside);
+  subtract(inside, column.ignored, cut);
   if (total_length(cut) <= kRounding) {
     return;
   }
-  std::vector<Interval> closed;
-  complement(cut, lo, hi, closed);
   sums.extra[static_cast<std::size_t>(Cause::kOpenings)] += total_length(cut) - overlap(cut, wrong);
-  std::vector<Interval> left;
-  std::vector<Interval> inside;
-  for (const Interval& part : closed) {
-    clip(wrong, part.lo, part.hi, inside);
-    left.insert(left.end(), inside.begin(), inside.end());
-  }
-  wrong = left;
+  const std::vector<Interval> all = wrong;
+  subtract(all, cut, wrong);
 }
 
 void Comparison::judge_cell(const Column& column, std::size_t layer, const std::vector<Interval>& rooms,
@@ -249,20 +223,27 @@ void Comparison::judge_cell(const Column& column, std::size_t layer, const std::
   clip(column.parts, lo, hi, inside);
   std::vector<Interval> wrong = inside;
   if (empty) {
-    complement(inside, lo, hi, wrong);
+    std::vector<Interval> solid;
+    subtract({{lo, hi}}, inside, solid);
+    subtract(solid, column.ignored, wrong);
   } else {
     judge_opening(column, lo, hi, wrong, sums);
   }
   auto& out = empty ? sums.extra : sums.lost;
   const bool by_label = (truth_label_[cell] != 0) != empty;
+  const Cause label_cause = input_.label[cell] == kUnknownLabel ? Cause::kUnknown : Cause::kLabels;
   std::vector<Interval> one(1);
   for (const Interval& part : wrong) {
     one[0] = part;
     const double in_rooms = empty || !prisms_ ? part.length() : overlap(one, rooms);
     out[static_cast<std::size_t>(Cause::kOpenings)] += part.length() - in_rooms;
     if (in_rooms > 0) {
-      const Cause cause = by_label ? Cause::kLabels : geometry(column, layer, part);
+      const Cause cause = by_label ? label_cause : geometry(column, layer, part);
       out[static_cast<std::size_t>(cause)] += in_rooms;
+      if (empty && by_label) {
+        const Vec3 middle(column.x, column.y, 0.5 * (part.lo + part.hi));
+        sums.invented.push_back({cell, middle, part.length()});
+      }
     }
   }
 }
@@ -374,12 +355,25 @@ Explanation Comparison::run() {
   }
   sum_rooms(rows, out);
   out.lost_walls = find_lost_walls(input_, locator_, truth_label_);
+  std::vector<InventedPart> invented;
+  for (const RowSums& row : rows) {
+    invented.insert(invented.end(), row.invented.begin(), row.invented.end());
+  }
+  out.invented = find_invented(input_, invented, area);
   out.cell_m3 = std::move(cell_m3_);
   out.cell_truth_m3 = std::move(cell_truth_m3_);
   return out;
 }
 
 }  // namespace
+
+double Explanation::invented_m3() const {
+  double sum = 0;
+  for (const InventedSpace& space : invented) {
+    sum += space.volume_m3;
+  }
+  return sum;
+}
 
 Explanation explain(const ExplainInput& input, double spacing_m, std::uint64_t seed) {
   return Comparison(input, spacing_m, seed).run();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/cells/cell_complex.h"
+#include "stages/tools/evaluate/spaces.h"
 #include "stages/tools/evaluate/surface_scores.h"
 #include "stages/tools/evaluate/thin_walls.h"
 #include "stages/tools/evaluate/truth_rooms.h"
@@ -17,6 +18,7 @@ namespace roomcut::evaluate {
 /// Why a place is wrong in the model.
 enum class Cause : std::uint8_t {
   kLabels,           ///< the truth's own label on this cell would be right here
+  kUnknown,          ///< the same, but the cell is labelled unknown (lost only)
   kOpenings,         ///< in no room of the truth: a doorway or shaft; or cut too wide (extra)
   kLinesMissing,     ///< a wall of the truth passes through the cell, no line near it
   kLinesMisplaced,   ///< the same, but a line bounds the cell within 10 cm of that wall
@@ -25,10 +27,10 @@ enum class Cause : std::uint8_t {
   kSloped,           ///< the truth's nearest surface is neither upright nor level
   kOutside,          ///< beyond the complex's bounding box, levels or faces (lost only)
 };
-inline constexpr std::size_t kCauses = 8;
+inline constexpr std::size_t kCauses = 9;
 inline constexpr std::array<const char*, kCauses> kCauseNames = {
-    "labels",         "openings",         "lines_missing", "lines_misplaced",
-    "levels_missing", "levels_misplaced", "sloped",        "outside"};
+    "labels",         "unknown",          "openings", "lines_missing", "lines_misplaced",
+    "levels_missing", "levels_misplaced", "sloped",   "outside"};
 
 /// How well the cells could do, and what the labels made of them.
 struct Explanation {
@@ -36,7 +38,7 @@ struct Explanation {
   double labels_iou = 0;  ///< of the labels as they are
   double empty_m3 = 0;    ///< of all cells labelled empty, exactly
   /// Per cell, as sampled: its volume, and what of it is empty in the truth. Both 0 for a cell that no
-  /// vertical line meets: it has no label of the truth and counts nowhere.
+  /// vertical line meets, or that is ignored: it has no label of the truth and counts nowhere.
   std::vector<double> cell_m3, cell_truth_m3;
   std::array<double, kCauses> lost_m3 = {};   ///< empty in the truth, solid in the model, by Cause
   std::array<double, kCauses> extra_m3 = {};  ///< solid in the truth, empty in the model
@@ -63,6 +65,14 @@ struct Explanation {
     std::vector<std::string> wall_ids;  ///< lines along these cells that run with the wall, sorted
   };
   std::vector<LostWall> lost_walls;  ///< sorted by rooms
+  /// A group of neighbouring cells labelled empty that are solid in the truth, and reach farther from its
+  /// rooms than any wall or slab is thick: a garden, a balcony or a plenum that became a room.
+  struct InventedSpace {
+    Vec3 centre{0, 0, 0};
+    double volume_m3 = 0;
+  };
+  std::vector<InventedSpace> invented;  ///< the largest first
+  double invented_m3() const;
 };
 
 /// The final cells and what was made of them, moved() into the frame of the meshes.
@@ -85,7 +95,9 @@ struct ExplainInput {
   const RoomFinder& finder;
   const std::vector<std::uint8_t>& found;  ///< per room
   const ThinWallScores& thin;
-  Bounds3 box;  ///< of the truth
+  const IgnoredSpace& ignored;
+  double thin_wall_m;  ///< the thickest wall or slab
+  Bounds3 box;         ///< of the truth
 };
 
 /// Compares cells and labels with the truth along one vertical line per square of `spacing_m`. Every wrong

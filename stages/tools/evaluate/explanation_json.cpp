@@ -64,7 +64,7 @@ Json explanation_json(const Explanation& explanation, const Scores& scores) {
     const Explanation::Room& room = explanation.rooms[i];
     Json entry = evidence_json(room.own);
     entry["name"] = scores.rooms[i].room.name;
-    entry["found"] = scores.rooms[i].found;
+    entry["found"] = scores.rooms[i].found();
     entry["own_share"] = room.volume_m3 > 0 ? Json(room.own_m3 / room.volume_m3) : Json(nullptr);
     rooms.push_back(std::move(entry));
   }
@@ -78,13 +78,20 @@ Json explanation_json(const Explanation& explanation, const Scores& scores) {
     entry["wall_ids"] = wall.wall_ids;
     walls.push_back(std::move(entry));
   }
+  Json invented = Json::array();
+  for (const Explanation::InventedSpace& space : explanation.invented) {
+    invented.push_back(
+        {{"centre", {space.centre.x(), space.centre.y(), space.centre.z()}}, {"volume_m3", space.volume_m3}});
+  }
   return {{"bound_iou", explanation.bound_iou},
           {"labels_iou", explanation.labels_iou},
           {"empty_m3", explanation.empty_m3},
           {"lost_m3", causes_json(explanation.lost_m3)},
           {"extra_m3", causes_json(explanation.extra_m3)},
           {"rooms", rooms},
-          {"lost_walls", walls}};
+          {"lost_walls", walls},
+          {"invented_m3", explanation.invented_m3()},
+          {"invented", invented}};
 }
 
 std::string explanation_rows(const Explanation& explanation, const Scores& scores) {
@@ -97,11 +104,15 @@ std::string explanation_rows(const Explanation& explanation, const Scores& score
   }
   for (std::size_t i = 0; i < explanation.rooms.size(); ++i) {
     const Explanation::Room& room = explanation.rooms[i];
-    if (!scores.rooms[i].found) {
+    if (!scores.rooms[i].found()) {
       text += "  missed          " + scores.rooms[i].room.name +
               format(": %.0f %% has cells of its own: ", 100 * room.own_m3 / std::max(room.volume_m3, 1e-9)) +
               evidence_text(room.own) + "\n";
     }
+  }
+  for (const Explanation::InventedSpace& space : explanation.invented) {
+    text += format("  invented space  %.1f m3 around (%.1f, %.1f, %.1f)\n", space.volume_m3, space.centre.x(),
+                   space.centre.y(), space.centre.z());
   }
   for (const Explanation::LostWall& wall : explanation.lost_walls) {
     text += wall.slab ? "  lost slab       " : "  lost wall       ";

@@ -17,14 +17,16 @@ using namespace roomcut::evaluate;
 StageInfo info() {
   StageInfo stage;
   stage.name = "evaluate";
-  stage.revision = 1;
+  stage.revision = 2;
   stage.summary = "Scores a model against a truth mesh";
-  stage.inputs = {{"model", "Mesh to judge: PLY, OFF or OBJ"},
-                  {"truth", "Closed mesh of the rooms' empty space: OFF, PLY or OBJ"},
-                  {"truth-json", "Rooms of the truth; without it every body is a room", true},
-                  {"cells", "Cells that the model was made of: explains what is wrong", true},
-                  {"labels", "Their labels; required with --cells", true},
-                  {"terms", "Their data terms: adds the evidence", true}};
+  stage.inputs = {
+      {"model", "Mesh to judge: PLY, OFF or OBJ"},
+      {"truth", "Closed mesh of the rooms' empty space: OFF, PLY or OBJ"},
+      {"truth-json", "Rooms of the truth; without it every body is a room", true},
+      {"cells", "Cells that the model was made of: explains what is wrong", true},
+      {"labels", "Their labels; required with --cells", true},
+      {"terms", "Their data terms: adds the evidence", true},
+      {"cloud", "Scan that the model was made of: tells walls from doors up to the ceiling", true}};
   stage.outputs = {{"scores", "All scores"},
                    {"coloured", "The model coloured by its distance to the truth"},
                    {"picture", "The same as a picture"},
@@ -61,13 +63,23 @@ void body(StageRun& run, const EvaluateParams& params) {
   if (!run.input("cells").empty()) {
     cells = read_labelled_cells(run.input("cells"), run.input("labels"), run.input("terms"), axes);
   }
-  std::vector<DescribedRoom> rooms;
+  TruthDescription described;
   if (run.has_input("truth-json")) {
-    rooms = read_described_rooms(run.input("truth-json"), axes);
+    described = read_truth_description(run.input("truth-json"), axes);
+  }
+  std::optional<ScannedSurface> scanned;
+  if (run.has_input("cloud")) {
+    scanned = read_scanned_surface(run.input("cloud"), axes);
   }
   const TriangleMesh truth = prepared(truth_file, axes);
   const TriangleMesh model = prepared(model_file, axes);
-  const Scores scores = evaluate::evaluate(model, truth, rooms, params, cells ? &*cells : nullptr);
+  Scores scores = evaluate::evaluate(model, truth, described, params, cells ? &*cells : nullptr,
+                                     scanned ? &*scanned : nullptr);
+  if (scores.explanation) {
+    for (Explanation::InventedSpace& space : scores.explanation->invented) {
+      space.centre = axes.to_file(space.centre);
+    }
+  }
   const DistanceMesh coloured = measure_for_display(model, MeshTree(truth));
   write_distance_ply(run.output("coloured"), coloured, axes, params.colour_range_m);
   write_distance_png(run.output("picture"), coloured, params.colour_range_m);

@@ -53,13 +53,33 @@ Json check_json(const MeshCheck& check) {
       {"volume_m3", check.volume_m3}};
 }
 
+Json compared_json(const ComparedVolumes& v) {
+  return {{"iou", v.iou()},         {"recall", v.recall()},   {"precision", v.precision()},
+          {"truth_m3", v.truth_m3}, {"model_m3", v.model_m3}, {"common_m3", v.common_m3}};
+}
+
 Json volume_json(const Scores& scores) {
   if (!scores.volume) {
     return nullptr;
   }
   const VolumeScores& v = *scores.volume;
-  return {{"iou", v.iou()},         {"recall", v.recall()},   {"precision", v.precision()},
-          {"truth_m3", v.truth_m3}, {"model_m3", v.model_m3}, {"common_m3", v.common_m3}};
+  Json out = compared_json(v);
+  out["seen"] = compared_json(v.seen);
+  out["ignored_m3"] = v.ignored_m3;
+  out["unknown_m3"] = v.unknown_m3;
+  out["unknown_in_truth_m3"] = v.unknown_in_truth_m3;
+  return out;
+}
+
+Json unentered_json(const UnenteredScores& unentered) {
+  Json out = {{"volume_m3", unentered.volume_m3},
+              {"empty_m3", unentered.empty_m3},
+              {"unknown_m3", unentered.unknown_m3},
+              {"denied_m3", unentered.denied_m3()}};
+  for (std::size_t answer = 0; answer < kRoomAnswers.size(); ++answer) {
+    out[kRoomAnswers[answer]] = unentered.rooms[answer];
+  }
+  return out;
 }
 
 Json rooms_json(const Scores& scores) {
@@ -71,13 +91,17 @@ Json rooms_json(const Scores& scores) {
     list.push_back({{"name", room.room.name},
                     {"volume_m3", room.volume_m3},
                     {"empty_in_model", share(room.empty_m3, room.volume_m3)},
-                    {"found", room.found}});
+                    {"found", room.found()},
+                    {"unknown_in_model", share(room.unknown_m3, room.volume_m3)},
+                    {"answer", kRoomAnswers[static_cast<std::size_t>(room.answer)]},
+                    {"scanned", room.room.scanned}});
   }
   return {{"truth", scores.rooms.size()},
           {"found", scores.found()},
           {"missed", scores.rooms.size() - scores.found()},
           {"merged", scores.in_merged_groups()},
           {"merged_groups", scores.merged},
+          {"unentered", unentered_json(scores.unentered())},
           {"list", list}};
 }
 
@@ -117,6 +141,7 @@ Json scores_json(const Scores& scores) {
           {"truth_mesh", check_json(scores.truth_check)},
           {"isprs", isprs},
           {"walls_within_1deg_2cm", or_null(scores.walls_matched)},
+          {"walls_within_1_5deg_4cm", or_null(scores.walls_loosely_matched)},
           {"horizontals_within_1deg_2cm", or_null(scores.horizontals_matched)},
           {"rooms", rooms_json(scores)},
           {"thin", thin_json(scores)},

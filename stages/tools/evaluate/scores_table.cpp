@@ -42,12 +42,23 @@ std::string space_rows(const Scores& s) {
   std::string text = format(
       "volume            IoU %.4f  recall %.4f  precision %.4f  (truth %.2f, model %.2f m3)\n",
       s.volume->iou(), s.volume->recall(), s.volume->precision(), s.volume->truth_m3, s.volume->model_m3);
+  text += format("over what was seen IoU %.4f\n", s.volume->seen.iou());
+  const UnenteredScores unentered = s.unentered();
+  if (unentered.volume_m3 > 0) {
+    text += format("not entered       %zu rooms found, %zu unknown, %zu denied (", unentered.rooms[0],
+                   unentered.rooms[1], unentered.rooms[2]) +
+            ratio(unentered.denied_m3(), unentered.volume_m3) + " of their volume)\n";
+  }
+  if (s.volume->unknown_m3 > 0) {
+    text += format("unknown           %.2f m3, %.2f of them empty in the truth\n", s.volume->unknown_m3,
+                   s.volume->unknown_in_truth_m3);
+  }
   text += format("rooms             %zu of %zu found, %zu in merged groups\n", s.found(), s.rooms.size(),
                  s.in_merged_groups());
   for (const RoomScore& room : s.rooms) {
-    if (!room.found) {
-      text += "  missed          " + room.room.name + " (" + ratio(room.empty_m3, room.volume_m3) +
-              " empty in the model)\n";
+    if (!room.found()) {
+      text += (room.answer == RoomAnswer::kUnknown ? "  unknown         " : "  missed          ") +
+              room.room.name + " (" + ratio(room.empty_m3, room.volume_m3) + " empty in the model)\n";
     }
   }
   return text + "thin structure    walls kept " + ratio(s.thin.wall_kept_m2, s.thin.wall_m2) +

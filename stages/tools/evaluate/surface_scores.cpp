@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kClassLimit = 0.10 + 1e-9;  // the largest buffer; what lies on its border is within
-constexpr double kMatchDistance = 0.02;
+constexpr double kCloseDistance = 0.02, kCloseAngle = 1 * kDegree;
+constexpr double kLooseDistance = 0.04, kLooseAngle = 1.5 * kDegree;
 
 std::vector<std::int32_t> triangles_of(const TriangleMesh& mesh, const MeshTree& tree, SlopeClass slope) {
   std::vector<std::int32_t> out;
@@ -81,6 +82,18 @@ std::optional<double> share_within(const SurfaceDistances& measured, SlopeClass 
   return area > 0 ? std::optional(within / area) : std::nullopt;
 }
 
+/// How closely `surface` follows a place that is `nearest_m` from the nearest surface of any class.
+Match match(const MeshTree& surface, const Vec3& p, const Vec3& normal, double nearest_m) {
+  const auto follows = [&](double distance, double angle) {
+    return nearest_m <= distance &&
+           surface.nearest_facing(p, distance + 1e-9, normal, std::cos(angle)).triangle >= 0;
+  };
+  if (follows(kCloseDistance, kCloseAngle)) {
+    return Match::kClose;
+  }
+  return follows(kLooseDistance, kLooseAngle) ? Match::kLoose : Match::kNone;
+}
+
 }  // namespace
 
 SlopeClass slope_class(const Vec3& unit_normal) {
@@ -98,14 +111,18 @@ MeasuredSurface::MeasuredSurface(const TriangleMesh& mesh)
                MeshTree(mesh, triangles_of(mesh, all_, SlopeClass::kSloped))} {}
 
 SurfaceDistances measure(const TriangleMesh& from, const MeasuredSurface& from_surface,
-                         const MeasuredSurface& to, double spacing_m, std::uint64_t seed) {
+                         const MeasuredSurface& to, double spacing_m, std::uint64_t seed,
+                         const std::function<bool(const Vec3&)>& counts) {
   SurfaceDistances out;
   out.samples = sample_surface(from, spacing_m, seed);
+  std::erase_if(out.samples, [&](const SurfaceSample& sample) {
+    return !counts(sample.point) && to.all().nearest(sample.point, kClassLimit).triangle < 0;
+  });
   const std::size_t n = out.samples.size();
   out.slope.resize(n);
   out.distance.resize(n);
   out.class_distance.resize(n);
-  out.matched.resize(n);
+  out.match.resize(n, Match::kNone);
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, n, 512), [&](const tbb::blocked_range<std::size_t>& range) {
         std::int32_t hint = -1;  // saves time, changes nothing: samples follow each other on the surface
@@ -122,11 +139,8 @@ SurfaceDistances measure(const TriangleMesh& from, const MeasuredSurface& from_s
           const bool same = slope_class(to.all().unit_normal(hit.triangle)) == out.slope[i];
           out.class_distance[i] =
               same ? hit.distance : to.of(out.slope[i]).nearest(sample.point, kClassLimit).distance;
-          if (out.slope[i] != SlopeClass::kSloped && hit.distance <= kMatchDistance) {
-            const auto match =
-                to.of(out.slope[i])
-                    .nearest_facing(sample.point, kMatchDistance + 1e-9, normal, std::cos(kDegree));
-            out.matched[i] = match.triangle >= 0 ? 1 : 0;
+          if (out.slope[i] != SlopeClass::kSloped) {
+            out.match[i] = match(to.of(out.slope[i]), sample.point, normal, hit.distance);
           }
         }
       });
@@ -152,13 +166,13 @@ IsprsScore isprs_score(const SurfaceDistances& truth, const SurfaceDistances& mo
   return score;
 }
 
-std::optional<double> matched_share(const SurfaceDistances& truth, SlopeClass slope) {
+std::optional<double> matched_share(const SurfaceDistances& truth, SlopeClass slope, Match least) {
   double area = 0;
   double matched = 0;
   for (std::size_t i = 0; i < truth.samples.size(); ++i) {
     if (truth.slope[i] == slope) {
       area += truth.samples[i].area_m2;
-      matched += truth.matched[i] != 0 ? truth.samples[i].area_m2 : 0;
+      matched += truth.match[i] >= least ? truth.samples[i].area_m2 : 0;
     }
   }
   return area > 0 ? std::optional(matched / area) : std::nullopt;

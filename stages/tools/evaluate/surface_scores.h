@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -20,6 +21,10 @@ struct Deviation {
   double mean = 0, rms = 0, p95 = 0;
 };
 
+/// How closely a surface is met: within 1 degree and 2 cm; within 1.5 degrees and 4 cm, as well as the scans
+/// of phones and depth cameras allow; or not.
+enum class Match : std::uint8_t { kNone = 0, kLoose = 1, kClose = 2 };
+
 /// One surface against another, sample by sample.
 struct SurfaceDistances {
   std::vector<SurfaceSample> samples;
@@ -27,8 +32,8 @@ struct SurfaceDistances {
   std::vector<double> distance;   ///< to the other surface
   std::vector<double>
       class_distance;  ///< to the other surface's triangles of the same slope class; infinite beyond 10 cm
-  std::vector<std::uint8_t>
-      matched;  ///< walls, horizontals: 1 = a triangle within 1 degree (facing the same way) is within 2 cm
+  /// Walls, horizontals: how closely a triangle of the other surface that faces the same way follows.
+  std::vector<Match> match;
   Deviation deviation;
 };
 
@@ -44,9 +49,12 @@ class MeasuredSurface {
   std::array<MeshTree, 3> classes_;
 };
 
-/// Measures `from` against `to`. Parallel; the same result for any number of threads.
-SurfaceDistances measure(const TriangleMesh& from, const MeasuredSurface& from_surface,
-                         const MeasuredSurface& to, double spacing_m, std::uint64_t seed);
+/// Measures `from` against `to`; samples for which `counts` is false are left out when they are farther from
+/// `to` than the largest buffer. Parallel; the same result for any number of threads.
+SurfaceDistances measure(
+    const TriangleMesh& from, const MeasuredSurface& from_surface, const MeasuredSurface& to,
+    double spacing_m, std::uint64_t seed,
+    const std::function<bool(const Vec3&)>& counts = [](const Vec3&) { return true; });
 
 /// Completeness, correctness and accuracy of the ISPRS benchmark on indoor modelling (Khoshelham et al. 2017,
 /// 2021), per slope class: share of the reference's area within `buffer` of the model, share of the model's
@@ -58,8 +66,9 @@ struct IsprsScore {
 IsprsScore isprs_score(const SurfaceDistances& truth, const SurfaceDistances& model, SlopeClass slope,
                        double buffer_m);
 
-/// Share of the area of one slope class of `truth` (walls or horizontals) with a model surface of that class
-/// that faces the same way within 1 degree and lies within 2 cm; empty without such area.
-std::optional<double> matched_share(const SurfaceDistances& truth, SlopeClass slope);
+/// Share of the area of one slope class of `truth` (walls or horizontals) that a model surface of that class
+/// follows at least so closely; empty without such area.
+std::optional<double> matched_share(const SurfaceDistances& truth, SlopeClass slope,
+                                    Match least = Match::kClose);
 
 }  // namespace roomcut::evaluate

@@ -13,12 +13,13 @@ namespace {
 
 struct ThinPlace {
   bool thin = false, kept = false, opening = false;
+  bool parts_rooms = false;  // two different ones
   std::int32_t near_room = -1, far_room = -1;
   Vec3 middle{0, 0, 0};
 };
 
 ThinPlace inspect(const SurfaceSample& sample, const MeshTree& tree, const RoomFinder& finder,
-                  const Columns& model, double thickest_m) {
+                  const Columns& model, double thickest_m, const ScannedSurface* scanned) {
   ThinPlace place;
   const Vec3& normal = tree.unit_normal(sample.triangle);
   constexpr double kOwnSurface = 1e-6;
@@ -33,6 +34,12 @@ ThinPlace inspect(const SurfaceSample& sample, const MeshTree& tree, const RoomF
   place.near_room = finder.at_surface(sample.point, sample.triangle, normal);
   place.far_room =
       finder.at_surface(sample.point + hit.distance * normal, hit.triangle, tree.unit_normal(hit.triangle));
+  place.parts_rooms = place.near_room >= 0 && place.far_room >= 0 && place.near_room != place.far_room;
+  if (place.parts_rooms && scanned != nullptr &&
+      (finder.scanned(place.near_room) || finder.scanned(place.far_room))) {
+    place.parts_rooms = scanned->surrounds(sample.point, normal) ||
+                        scanned->surrounds(sample.point + hit.distance * normal, normal);
+  }
   return place;
 }
 
@@ -40,12 +47,13 @@ ThinPlace inspect(const SurfaceSample& sample, const MeshTree& tree, const RoomF
 
 ThinWallScores score_thin_walls(const SurfaceDistances& truth_samples, const MeshTree& truth_tree,
                                 const RoomFinder& finder, const Columns& model, double thickest_m,
-                                const std::function<bool(const Vec3&)>& in_opening) {
+                                const std::function<bool(const Vec3&)>& in_opening,
+                                const ScannedSurface* scanned) {
   const auto& samples = truth_samples.samples;
   std::vector<ThinPlace> places(samples.size());
   tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) {
     if (samples[i].area_m2 > 0) {
-      places[i] = inspect(samples[i], truth_tree, finder, model, thickest_m);
+      places[i] = inspect(samples[i], truth_tree, finder, model, thickest_m, scanned);
       places[i].opening = places[i].thin && !places[i].kept && in_opening(places[i].middle);
     }
   });
@@ -60,7 +68,7 @@ ThinWallScores score_thin_walls(const SurfaceDistances& truth_samples, const Mes
     const bool wall = truth_samples.slope[i] == SlopeClass::kWall;
     (wall ? out.wall_m2 : out.slab_m2) += area;
     (wall ? out.wall_kept_m2 : out.slab_kept_m2) += place.kept ? area : 0;
-    if (place.near_room >= 0 && place.far_room >= 0 && place.near_room != place.far_room) {
+    if (place.parts_rooms) {
       const std::int32_t a = std::min(place.near_room, place.far_room);
       const std::int32_t b = std::max(place.near_room, place.far_room);
       auto& pair = pairs.try_emplace({a, b}, ThinWallScores::Pair{a, b}).first->second;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "stages/tools/evaluate/scanned_surface.h"
 #include "stages/tools/evaluate/surface_scores.h"
 #include "stages/tools/evaluate/truth_rooms.h"
 
@@ -37,10 +38,13 @@ struct ThinWallScores {
 };
 
 /// `in_opening`: whether a place where the model is empty lies in an opening that was cut into a wall of the
-/// model.
+/// model. `scanned`: with it, thin places beside a room that was scanned, which no scanned surface surrounds
+/// on either face, stand between no rooms: a doorway up to the ceiling, of which the rooms of the truth know
+/// nothing.
 ThinWallScores score_thin_walls(const SurfaceDistances& truth_samples, const MeshTree& truth_tree,
                                 const RoomFinder& finder, const Columns& model, double thickest_m,
-                                const std::function<bool(const Vec3&)>& in_opening);
+                                const std::function<bool(const Vec3&)>& in_opening,
+                                const ScannedSurface* scanned);
 
 /// Groups of rooms that the model has joined: more than half of the wall or slab between two of them is
 /// missing, and both are found. Each group sorted, at least two rooms; sorted by first room.

@@ -8,6 +8,10 @@ namespace roomcut::evaluate {
 
 namespace {
 
+Vec3 corner(const Json& p) {
+  return {scan_metres(p.at(0)), scan_metres(p.at(1)), scan_metres(p.at(2))};
+}
+
 DescribedRoom described(const Json& room, const ComparedAxes& axes) {
   DescribedRoom out;
   out.name = room.at("name").get<std::string>();
@@ -16,41 +20,54 @@ DescribedRoom described(const Json& room, const ComparedAxes& axes) {
   Vec3 middle(0, 0, 0);  // of the floor: there its height counts, should the axes lean against the room's
   if (room.contains("polygon")) {
     for (const Json& p : room.at("polygon")) {
-      const Vec3 corner = axes.from_file(Vec3(scan_metres(p.at(0)), scan_metres(p.at(1)), floor));
-      out.polygon.emplace_back(corner.head<2>());
-      middle += corner / static_cast<double>(room.at("polygon").size());
+      const Vec3 place = axes.from_file({scan_metres(p.at(0)), scan_metres(p.at(1)), floor});
+      out.polygon.emplace_back(place.head<2>());
+      middle += place / static_cast<double>(room.at("polygon").size());
     }
   } else {
-    const Json& p = room.at("center");
-    out.inside = axes.from_file(Vec3(scan_metres(p.at(0)), scan_metres(p.at(1)), scan_metres(p.at(2))));
-    middle = axes.from_file(Vec3(scan_metres(p.at(0)), scan_metres(p.at(1)), floor));
+    const Vec3 p = corner(room.at("center"));
+    out.inside = axes.from_file(p);
+    middle = axes.from_file({p.x(), p.y(), floor});
   }
+  out.scanned = room.value("scanned", true);
   out.floor = middle.z();
   out.ceiling = middle.z() + height;
   return out;
 }
 
+Bounds3 ignored_box(const Json& corners) {
+  const Vec3 a = corner(corners.at(0));
+  const Vec3 b = corner(corners.at(1));
+  return {a.cwiseMin(b), a.cwiseMax(b)};
+}
+
 }  // namespace
 
-std::vector<DescribedRoom> read_described_rooms(const std::filesystem::path& path, const ComparedAxes& axes) {
+TruthDescription read_truth_description(const std::filesystem::path& path, const ComparedAxes& axes) {
   const std::string text = read_text_file(path);
-  std::vector<DescribedRoom> rooms;
+  TruthDescription out;
   const auto refuse = [&path](const std::string& what) {
     throw StageError(
         errors::kMeshFormat, path.string(), "not a description of rooms: " + what,
-        "rooms need name, floor, ceiling and polygon or center; without --truth-json every body is a room");
+        "rooms need name, floor, ceiling and polygon or center, ignore_boxes two corners each; without "
+        "--truth-json every body is a room");
   };
   try {
     const Json root = parse_json(text);
     for (const Json& room : root.at("rooms")) {
-      rooms.push_back(described(room, axes));
+      out.rooms.push_back(described(room, axes));
     }
+    std::vector<Bounds3> boxes;
+    for (const Json& box : root.value("ignore_boxes", Json::array())) {
+      boxes.push_back(ignored_box(box));
+    }
+    out.ignored = IgnoredSpace(std::move(boxes), axes);
   } catch (const Json::exception& error) {
     refuse(short_message(error));
   } catch (const BadJson& error) {
     refuse(error.what());
   }
-  return rooms;
+  return out;
 }
 
 }  // namespace roomcut::evaluate

@@ -22,7 +22,7 @@ std::vector<TruthRoom> locate_rooms(const std::vector<DescribedRoom>& described,
   bool prisms = false;
   for (const DescribedRoom& d : described) {
     if (!d.polygon.empty()) {
-      rooms.push_back({d.name, d.polygon, d.floor, d.ceiling, -1});
+      rooms.push_back({d.name, d.polygon, d.floor, d.ceiling, -1, d.scanned});
       prisms = true;
       continue;
     }
@@ -32,15 +32,17 @@ std::vector<TruthRoom> locate_rooms(const std::vector<DescribedRoom>& described,
     }
     auto& known = room_of_body[static_cast<std::size_t>(body)];
     if (known >= 0) {
-      rooms[static_cast<std::size_t>(known)].name += " + " + d.name;
+      TruthRoom& room = rooms[static_cast<std::size_t>(known)];
+      room.name += " + " + d.name;
+      room.scanned = room.scanned || d.scanned;
     } else {
       known = static_cast<std::int32_t>(rooms.size());
-      rooms.push_back({d.name, {}, d.floor, d.ceiling, body});
+      rooms.push_back({d.name, {}, d.floor, d.ceiling, body, d.scanned});
     }
   }
   for (std::int32_t body = 0; body < truth.components() && !prisms; ++body) {
     if (room_of_body[static_cast<std::size_t>(body)] < 0) {
-      rooms.push_back({"body " + std::to_string(body), {}, 0, 0, body});
+      rooms.push_back({"body " + std::to_string(body), {}, 0, 0, body, true});
     }
   }
   return rooms;

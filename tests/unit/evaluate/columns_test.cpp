@@ -73,5 +73,22 @@ TEST(Columns, OverlapOfIntervalLists) {
   EXPECT_DOUBLE_EQ(overlap({}, {{1, 2}}), 0);
 }
 
+TEST(Intervals, AreUnitedWhereTheyMeetAndSubtractedInAllPositions) {
+  const auto pairs = [](const std::vector<Interval>& intervals) {
+    std::vector<std::pair<double, double>> out;
+    for (const Interval& i : intervals) out.emplace_back(i.lo, i.hi);
+    return out;
+  };
+  using Pairs = std::vector<std::pair<double, double>>;
+  std::vector<Interval> some = {{4, 5}, {0, 1}, {1, 2}, {0.5, 0.7}};
+  unite(some);
+  EXPECT_EQ(pairs(some), (Pairs{{0, 2}, {4, 5}}));
+  std::vector<Interval> left;
+  subtract({{0, 2}, {3, 6}, {7, 8}}, {{-1, 0.5}, {1, 1.5}, {1.8, 4}, {5, 5.5}, {6.5, 9}}, left);
+  EXPECT_EQ(pairs(left), (Pairs{{0.5, 1}, {1.5, 1.8}, {4, 5}, {5.5, 6}}));
+  subtract({{0, 2}}, {}, left);
+  EXPECT_EQ(pairs(left), (Pairs{{0, 2}}));
+}
+
 }  // namespace
 }  // namespace roomcut::evaluate

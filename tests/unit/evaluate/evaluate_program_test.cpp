@@ -11,6 +11,7 @@
 #include "common/artefact/h5.h"
 #include "common/artefact/json_values.h"
 #include "common/cells/cells_io.h"
+#include "common/cloud/cloud_io.h"
 #include "common/geometry/scan_coordinates.h"
 #include "common/mesh/mesh_io.h"
 #include "tests/unit/cells/three_faces.h"
@@ -92,7 +93,72 @@ TEST_F(EvaluateProgram, RoomsOfATruthJsonKeepTheirNames) {
   EXPECT_NEAR(list.at(1).at("volume_m3").get<double>(), 3.9 * 3 * 2.5, 0.5);
 }
 
+TEST_F(EvaluateProgram, IgnoredBoxesAndRoomsThatNobodyEnteredAreReadFromTheTruthJson) {
+  write("truth.json", R"({"rooms": [
+    {"name": "kitchen", "floor": 0, "ceiling": 2.5, "center": [1, 1, 1], "scanned": false},
+    {"name": "hall", "floor": 0, "ceiling": 2.5, "center": [5, 1, 1], "scanned": true}],
+    "ignore_boxes": [[[20, 3, 2.5], [8.1, 0, 0]]]})");
+  TriangleMesh more = box({4.1, 0, 0}, {8, 3, 2.5});
+  append(more, box({8.2, 0, 0}, {12, 3, 2.5}));
+  write("model.ply", ply_bytes(more, {0, 0, 0}, {}));
+  ASSERT_EQ(run("--truth truth.off --truth-json truth.json"), 0) << read("stderr");
+  const Json scores = read_json_artefact(work_ / "evaluate/scores.json", artefacts::kScores);
+  EXPECT_NEAR(scores.at("volume").at("seen").at("iou").get<double>(), 1, 1e-6);
+  EXPECT_NEAR(scores.at("volume").at("ignored_m3").get<double>(), 28.5, 0.5);
+  EXPECT_NEAR(scores.at("volume").at("precision").get<double>(), 1, 1e-6);
+  EXPECT_EQ(scores.at("rooms").at("unentered").at("denied").get<int>(), 1);
+  EXPECT_EQ(scores.at("rooms").at("list").at(0).at("answer"), "denied");
+}
+
+// The wall between the rooms is open from y = 1.2 on, and scanned up to there.
+TEST_F(EvaluateProgram, TheScanTellsADoorUpToTheCeilingFromALostWallAndKeepsItsOwnFrame) {
+  TriangleMesh open = box({0, 0, 0}, {4, 3, 2.5});
+  append(open, box({4.1, 0, 0}, {8, 3, 2.5}));
+  append(open, box({3.9, 1.2, 0.001}, {4.2, 2.999, 2.499}));
+  write("model.ply", ply_bytes(open, {0, 0, 0}, {}));
+  CloudHeader header;
+  header.frame.origin[1] = -500;
+  header.tile_ix = {0};
+  header.tile_iy = {0};
+  header.tile_edge_m = 1000;
+  header.voxel_edge_m = 0.1;
+  CloudTile tile;
+  for (int y = 0; y < 30; ++y) {
+    for (int z = 0; z < 62; ++z) {
+      for (const float x : {4.0F, 4.1F}) {
+        tile.x.push_back(x);
+        tile.y.push_back(500 + 0.04F * static_cast<float>(y));
+        tile.z.push_back(0.04F * static_cast<float>(z));
+      }
+    }
+  }
+  header.points = tile.size();
+  tile.surface.assign(tile.size(), 0);
+  tile.azimuth.assign(tile.size(), 0);
+  tile.area.assign(tile.size(), 0.0016F);
+  CloudWriter writer(work_ / "cloud.h5", {"ingest", 1, "{}", "", {}}, header);
+  writer.append(tile);
+  writer.header().density = 600;
+  writer.finish();
+  const auto merged = [this](const std::string& options) {
+    EXPECT_EQ(run("--truth truth.off" + options), 0) << read("stderr");
+    const Json scores = read_json_artefact(work_ / "evaluate/scores.json", artefacts::kScores);
+    return scores.at("rooms").at("merged").get<int>();
+  };
+  EXPECT_EQ(merged(""), 2);
+  EXPECT_EQ(merged(" --cloud cloud.h5"), 0);
+}
+
+TEST_F(EvaluateProgram, ACloudThatIsNoneIsAnError) {
+  write("cloud.h5", "no cloud");
+  expect_refused("A02", "--truth truth.off --cloud cloud.h5");
+}
+
 TEST_F(EvaluateProgram, ATruthJsonThatIsNoneIsAnErrorOfThatFile) {
+  for (const char* boxes : {"3", "[[1, 2]]", "[[[0, 0, 0], [1, 1]]]", R"([[[0, 0, 0], [1, 1, "x"]]])"}) {
+    write("truth.json", std::string(R"({"rooms": [], "ignore_boxes": )") + boxes + "}");
+    expect_refused("M02", "--truth truth.off --truth-json truth.json");
+  }
   const std::string room = R"({"rooms": [{"name": "hall", "floor": 0, "ceiling": 2.5, "center": [1, 1, )";
   for (const std::string& height : {std::string("1e999"), std::string("1e308"), std::string(R"("high")"),
                                     std::string(50'000, '[') + std::string(50'000, ']')}) {

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cassert>
+#include <cmath>
 #include <numbers>
 #include <numeric>
 
@@ -92,7 +94,7 @@ Explanation explained(const TriangleMesh& model, const TriangleMesh& truth, cons
   EvaluateParams params;
   params.sample_spacing_m = 0.05;
   params.column_spacing_m = 0.02;
-  return *evaluate(model, truth, rooms, params, &cells).explanation;
+  return *evaluate(model, truth, {rooms, {}}, params, &cells).explanation;
 }
 
 double total(const std::array<double, kCauses>& m3) {
@@ -282,6 +284,100 @@ TEST(Explain, FollowsTheFrame) {
   cells.complex = moved(cells.complex, by);
   const TriangleMesh truth = box(Vec3(1, 1, 0) + by, Vec3(4, 3, 2.5) + by);
   EXPECT_NEAR(explained(truth, truth, cells).labels_iou, 1, 1e-9);
+}
+
+// Two rooms of 15 m3 with a wall of 0.2 m between them; nobody entered the second. Cells in and around them.
+const TriangleMesh kSecond = box({4.2, 1, 0}, {7.2, 3, 2.5});
+const Values kX2 = {0, 1, 4, 4.2, 7.2, 9};
+TriangleMesh pair_of_rooms() {
+  TriangleMesh mesh = kRoom;
+  append(mesh, kSecond);
+  return mesh;
+}
+TruthDescription second_not_entered() {
+  return {{{"entered", {}, 0, 2.5, {2, 2, 1}, true}, {"closed", {}, 0, 2.5, {5, 2, 1}, false}}, {}};
+}
+Scores scored(const TriangleMesh& model, const TriangleMesh& truth, const TruthDescription& described,
+              const LabelledCells& cells) {
+  EvaluateParams params;
+  params.sample_spacing_m = 0.05;
+  params.column_spacing_m = 0.02;
+  return evaluate(model, truth, described, params, &cells);
+}
+
+TEST(Unknown, ARoomThatNobodyEnteredIsDeniedWhenSolidAndUnknownWhenLabelledSo) {
+  LabelledCells cells = labelled(grid(kX2, kY, kZ), {kRoomBox});
+  const Scores denied = scored(kRoom, pair_of_rooms(), second_not_entered(), cells);
+  EXPECT_NEAR(denied.volume->iou(), 0.5, 0.01);
+  EXPECT_NEAR(denied.volume->seen.iou(), 1, 1e-9);
+  EXPECT_EQ(denied.unentered().rooms, (std::array<std::size_t, 3>{0, 0, 1}));
+  EXPECT_NEAR(denied.unentered().denied_m3(), 15, 0.1);
+  EXPECT_NEAR(of(denied.explanation->lost_m3, Cause::kLabels), 15, 0.1);
+
+  const auto cell = static_cast<std::size_t>(FaceLocator(cells.complex).cell_at({5, 2, 1}));
+  cells.label[cell] = kUnknownLabel;
+  const Scores unknown = scored(kRoom, pair_of_rooms(), second_not_entered(), cells);
+  EXPECT_NEAR(unknown.volume->iou(), 0.5, 0.01) << "it is no part of the model";
+  EXPECT_EQ(unknown.unentered().rooms, (std::array<std::size_t, 3>{0, 1, 0}));
+  EXPECT_LT(unknown.unentered().denied_m3(), 0.1);
+  EXPECT_NEAR(unknown.volume->unknown_in_truth_m3, 15, 0.1);
+  EXPECT_NEAR(of(unknown.explanation->lost_m3, Cause::kUnknown), 15, 0.1);
+  EXPECT_NEAR(of(unknown.explanation->lost_m3, Cause::kLabels), 0, 1e-9);
+}
+
+TEST(Unknown, ARoomThatWasEnteredIsLostOverWhatWasSeenEvenWhenUnknown) {
+  LabelledCells cells = labelled(grid(kX2, kY, kZ), {kRoomBox});
+  cells.label[static_cast<std::size_t>(FaceLocator(cells.complex).cell_at({5, 2, 1}))] = kUnknownLabel;
+  TruthDescription described = second_not_entered();
+  described.rooms[1].scanned = true;
+  const Scores scores = scored(kRoom, pair_of_rooms(), described, cells);
+  EXPECT_NEAR(scores.volume->seen.iou(), 0.5, 0.01);
+  EXPECT_EQ(scores.unentered().volume_m3, 0);
+}
+
+TEST(Invented, AGardenThatBecameARoomIsListedAndALostWallIsNot) {
+  const LabelledCells garden = labelled(grid(kX2, kY, kZ), {kRoomBox, {Vec3(4.2, 1, 0), Vec3(7.2, 3, 2.5)}});
+  const auto invented = scored(pair_of_rooms(), kRoom, {}, garden).explanation->invented;
+  ASSERT_EQ(invented.size(), 1U);
+  EXPECT_NEAR(invented[0].volume_m3, 15, 0.1);
+  EXPECT_NEAR((invented[0].centre - Vec3(5.7, 2, 1.25)).norm(), 0, 0.01);
+
+  const TriangleMesh joined = box({1, 1, 0}, {7.2, 3, 2.5});
+  const LabelledCells no_wall = labelled(grid(kX2, kY, kZ), {{Vec3(1, 1, 0), Vec3(7.2, 3, 2.5)}});
+  const Scores scores = scored(joined, pair_of_rooms(), {}, no_wall);
+  EXPECT_NEAR(of(scores.explanation->extra_m3, Cause::kLabels), 1, 0.02);
+  EXPECT_TRUE(scores.explanation->invented.empty());
+}
+
+TEST(Ignored, ARoomInAnIgnoredBoxCountsNowhereAndOneOfTheTruthEverywhere) {
+  const LabelledCells both = labelled(grid(kX2, kY, kZ), {kRoomBox, {Vec3(4.2, 1, 0), Vec3(7.2, 3, 2.5)}});
+  const Bounds3 around{{4.1, 0.9, -0.1}, {7.3, 3.1, 2.6}};
+  TruthDescription described;
+  described.ignored = IgnoredSpace({around}, {});
+  const Scores more = scored(pair_of_rooms(), kRoom, described, both);
+  EXPECT_NEAR(more.volume->iou(), 1, 1e-9);
+  EXPECT_NEAR(more.explanation->labels_iou, 1, 1e-9);
+  EXPECT_NEAR(more.volume->ignored_m3, 15, 0.1);
+  EXPECT_LT(more.model_to_truth.max, 1e-9);
+  EXPECT_NEAR(total(more.explanation->extra_m3), 0, 1e-9);
+  EXPECT_TRUE(more.explanation->invented.empty());
+  const Scores less = scored(kRoom, pair_of_rooms(), described, labelled(grid(kX2, kY, kZ), {kRoomBox}));
+  EXPECT_NEAR(less.volume->iou(), 0.5, 0.01) << "the truth has this room";
+  EXPECT_EQ(less.found(), 1U);
+}
+
+TEST(Ignored, TheBoxesKeepTheAxesOfTheFilesWhenTheCellsAreLevel) {
+  const double lean = 0.02;
+  const ComparedAxes axes{{10, 0, 0}, Eigen::AngleAxisd(lean, Vec3::UnitX()).toRotationMatrix()};
+  const IgnoredSpace ignored({{{10, -1, 0}, {12, 100, 1}}}, axes);
+  EXPECT_TRUE(ignored.contains(axes.from_file({11, 99, 0.5})));
+  EXPECT_FALSE(ignored.contains(axes.from_file({11, 99, 1.5})));
+  std::vector<Interval> parts;
+  const Vec3 low = axes.from_file({11, 99, 0});
+  ignored.at(low.x(), low.y(), {}, parts);
+  ASSERT_EQ(parts.size(), 1U);
+  EXPECT_NEAR(parts[0].length(), 1 / std::cos(lean), 1e-9);
+  EXPECT_NEAR(parts[0].lo, low.z(), 1e-9);
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ TEST(Rooms, AMissingRoomIsMissedAndLowersTheRecall) {
   append(model, box({0, 0, 2.8}, {4, 3, 5.3}));
   const Scores scores = evaluate(model, truth(), {}, kCoarse);
   EXPECT_EQ(scores.found(), 3U);
-  EXPECT_FALSE(scores.rooms[2].found);
+  EXPECT_FALSE(scores.rooms[2].found());
   EXPECT_TRUE(scores.merged.empty());
   EXPECT_NEAR(scores.volume->recall(), 0.75, 5e-3);
   EXPECT_NEAR(scores.volume->precision(), 1, 1e-12);
@@ -97,12 +97,54 @@ TEST(Rooms, PrismsDescribeRoomsThatDoorwaysJoinToOneBody) {
   };
   const std::vector<DescribedRoom> described = {{"west", square(0, 4), 0, 2.5, {0, 0, 0}},
                                                 {"east", square(4, 8), 0, 2.5, {0, 0, 0}}};
-  const Scores scores = evaluate(box({0, 0, 0}, {4, 3, 2.5}), joined, described, kCoarse);
+  const Scores scores = evaluate(box({0, 0, 0}, {4, 3, 2.5}), joined, {described, {}}, kCoarse);
   ASSERT_EQ(scores.rooms.size(), 2U);
-  EXPECT_TRUE(scores.rooms[0].found);
-  EXPECT_FALSE(scores.rooms[1].found);
+  EXPECT_TRUE(scores.rooms[0].found());
+  EXPECT_FALSE(scores.rooms[1].found());
   EXPECT_NEAR(scores.rooms[0].volume_m3, 30, 0.2);
   EXPECT_NEAR(scores.rooms[1].empty_m3, 0, 0.2);
+}
+
+/// Points every 4 cm on both faces of the wall of truth() between x = 4 and 4.1, from y = 0 to `until`.
+ScannedSurface wall_scanned(double until) {
+  ScannedSurface scanned(600);
+  for (double y = 0; y < until; y += 0.04) {
+    for (double z = 0; z < 2.5; z += 0.04) {
+      scanned.add({4, y, z});
+      scanned.add({4.1, y, z});
+    }
+  }
+  return scanned;
+}
+
+TEST(ScannedSurface, SurroundsWhatLiesInItAndNothingInAnOpening) {
+  const ScannedSurface scanned = wall_scanned(1.2);
+  const Vec3 normal(1, 0, 0);
+  EXPECT_TRUE(scanned.surrounds({4, 0.6, 1}, normal));
+  EXPECT_TRUE(scanned.surrounds({4.02, 0.6, 1}, -normal));
+  EXPECT_FALSE(scanned.surrounds({4, 1.25, 1}, normal)) << "beside the jamb";
+  EXPECT_FALSE(scanned.surrounds({4, 2, 1}, normal));
+  EXPECT_FALSE(scanned.surrounds({4.5, 0.6, 1}, normal)) << "off the plane";
+  EXPECT_FALSE(scanned.surrounds({4, 0.6, 1}, Vec3(0, 1, 0))) << "across the wall";
+}
+
+// Rooms joined over most of their wall, in the model; what the scan shows of it decides.
+TEST(Rooms, ADoorUpToTheCeilingMergesNoRoomsAndTheLostWallBesideItDoes) {
+  TriangleMesh truth = box({0, 0, 0}, {4, 3, 2.5});
+  append(truth, box({4.1, 0, 0}, {8, 3, 2.5}));
+  TriangleMesh door = truth;
+  append(door, box({3.9, 1.2, 0.001}, {4.2, 2.999, 2.499}));
+  const ScannedSurface beside = wall_scanned(1.2);
+  const ScannedSurface everywhere = wall_scanned(3);
+  const auto merged = [&](const TruthDescription& described, const ScannedSurface* scanned) {
+    return evaluate(door, truth, described, kCoarse, nullptr, scanned).merged.size();
+  };
+  EXPECT_EQ(merged({}, nullptr), 1U);
+  EXPECT_EQ(merged({}, &beside), 0U);
+  EXPECT_EQ(merged({}, &everywhere), 1U) << "there is a wall";
+  const TruthDescription nobody = {{{"a", {}, 0, 2.5, {1, 1, 1}, false}, {"b", {}, 0, 2.5, {5, 1, 1}, false}},
+                                   {}};
+  EXPECT_EQ(merged(nobody, &beside), 1U) << "that nobody saw it does not mean that there is a door";
 }
 
 }  // namespace

@@ -52,6 +52,14 @@ TEST(SurfaceScores, AWallThatIsOffByMoreThanTwoCentimetresDoesNotMatch) {
   EXPECT_NEAR(*matched_share(truth, SlopeClass::kWall), 48.0 / 60, 2e-3);
 }
 
+TEST(SurfaceScores, AWallThatIsOffByTwoToFourCentimetresIsFollowedLoosely) {
+  const SurfaceDistances off = from_to(kTruth, box({0.039, 0, 0}, {6, 4, 3}));
+  EXPECT_NEAR(*matched_share(off, SlopeClass::kWall), 48.0 / 60, 5e-3);
+  EXPECT_NEAR(*matched_share(off, SlopeClass::kWall, Match::kLoose), 1, 5e-3);
+  const SurfaceDistances farther = from_to(kTruth, box({0.041, 0, 0}, {6, 4, 3}));
+  EXPECT_NEAR(*matched_share(farther, SlopeClass::kWall, Match::kLoose), 48.0 / 60, 5e-3);
+}
+
 TEST(SurfaceScores, ACeilingThatIsOffByMoreThanTwoCentimetresDoesNotMatchButItsFloorDoes) {
   EXPECT_NEAR(*matched_share(from_to(kTruth, kTruth), SlopeClass::kHorizontal), 1, 1e-12);
   const SurfaceDistances truth = from_to(kTruth, box({0, 0, 0}, {6, 4, 3.021}));
@@ -89,7 +97,7 @@ TEST(SurfaceScores, OneThreadGivesTheSameNumbersAsMany) {
   const SurfaceDistances single = from_to(kTruth, model);
   EXPECT_EQ(many.distance, single.distance);
   EXPECT_EQ(many.class_distance, single.class_distance);
-  EXPECT_EQ(many.matched, single.matched);
+  EXPECT_EQ(many.match, single.match);
 }
 
 }  // namespace
