@@ -124,43 +124,43 @@ double WallRasters::omega_of(const Raster& raster, Divisions::Range columns, std
   constexpr double kTopNeeds = 1.0;  // [m] a layer at least this high may count by its top share
   const Divisions::Range rows = rows_of(layer);
   if (tolerances_.edge_bins) return occupied_columns(columns, rows, tables);
-  const auto share = [&](Divisions::Range part, int first_row) {
-    const double area = tables.area.bins(part.begin, part.end, first_row, rows.end);
-    return area > 0 ? tables.covered.bins(part.begin, part.end, first_row, rows.end) / area : 0.0;
+  const auto share = [&](int first_row) {
+    const double area = tables.area.bins(columns.begin, columns.end, first_row, rows.end);
+    return area > 0 ? tables.covered.bins(columns.begin, columns.end, first_row, rows.end) / area : 0.0;
   };
-  double omega = share(columns, rows.begin);
+  double omega = share(rows.begin);
   const int top_rows = static_cast<int>(std::lround(tolerances_.top_share * (rows.end - rows.begin)));
-  if (complex_.height(layer) < kTopNeeds || top_rows == 0 || share(columns, rows.end - top_rows) <= omega) {
-    return std::clamp(omega, 0.0, 1.0);
+  if (complex_.height(layer) >= kTopNeeds && top_rows > 0) {
+    const double top = share(rows.end - top_rows);
+    omega = top > omega && !is_beam(raster, columns, layer) ? top : omega;
   }
-  double covered = 0, length = 0;
-  for (int c = columns.begin; c < columns.end; ++c) {
-    const bool passed = floor_on_both_sides(raster, columns, c, layer);
-    covered += raster.columns.length(c) * share({c, c + 1}, passed ? rows.begin : rows.end - top_rows);
-    length += raster.columns.length(c);
-  }
-  omega = std::max(omega, length > 0 ? covered / length : 0.0);
   return std::clamp(omega, 0.0, 1.0);
 }
 
 /// Furniture that hides the lower part of a wall also hides the floor before it, and no floor goes through a
-/// wall: where it is seen on both sides, what hangs above is a beam.
+/// wall: where it is seen on both sides from end to end, what hangs above is a beam. Through a door it is
+/// seen on a part of the wall only.
+bool WallRasters::is_beam(const Raster& raster, Divisions::Range columns, std::size_t layer) const {
+  constexpr double kEndToEnd = 0.8;
+  double passed = 0, length = 0;
+  for (int c = columns.begin; c < columns.end; ++c) {
+    passed += floor_on_both_sides(raster, columns, c, layer) ? raster.columns.length(c) : 0;
+    length += raster.columns.length(c);
+  }
+  return passed > kEndToEnd * length;
+}
+
 bool WallRasters::floor_on_both_sides(const Raster& raster, Divisions::Range columns, int column,
                                       std::size_t layer) const {
   constexpr double kAround = 0.25;  // [m] along the wall: sparse scans have no point in each column
-  constexpr double kLower = 1.0;    // [m] raised floors and steps
   const int around = static_cast<int>(std::ceil(kAround / tolerances_.bin));
   bool plus = false, minus = false;
   for (int c = std::max(columns.begin, column - around); c < std::min(columns.end, column + around + 1);
        ++c) {
-    const std::size_t first = (raster.first_column + static_cast<std::size_t>(c)) * complex_.levels.size();
-    for (std::size_t level = layer + 1; level-- > 0;) {
-      if (complex_.levels[layer] - complex_.levels[level] > kLower) {
-        break;
-      }
-      plus = plus || plus_.at(first + level) > 0;
-      minus = minus || minus_.at(first + level) > 0;
-    }
+    const std::size_t i =
+        (raster.first_column + static_cast<std::size_t>(c)) * complex_.levels.size() + layer;
+    plus = plus || plus_.at(i) > 0;
+    minus = minus || minus_.at(i) > 0;
   }
   return plus && minus;
 }
