@@ -138,25 +138,33 @@ double WallRasters::omega_of(const Raster& raster, Divisions::Range columns, std
 }
 
 /// Furniture that hides the lower part of a wall also hides the floor before it, and no floor goes through a
-/// wall: where it is seen on both sides from end to end, what hangs above is a beam. Through a door it is
-/// seen on a part of the wall only.
+/// wall: where it is seen on both sides from end to end, and on more than a door's width of the line, what
+/// hangs above is a beam.
 bool WallRasters::is_beam(const Raster& raster, Divisions::Range columns, std::size_t layer) const {
   constexpr double kEndToEnd = 0.8;
+  constexpr double kWidestDoor = 2.0;  // [m]
   double passed = 0, length = 0;
   for (int c = columns.begin; c < columns.end; ++c) {
-    passed += floor_on_both_sides(raster, columns, c, layer) ? raster.columns.length(c) : 0;
+    passed += floor_on_both_sides(raster, c, layer) ? raster.columns.length(c) : 0;
     length += raster.columns.length(c);
   }
-  return passed > kEndToEnd * length;
+  if (passed <= kEndToEnd * length) return false;
+  const auto go_on = [&](int c, int step) {
+    for (; c >= 0 && c < raster.columns.bins() && passed <= kWidestDoor; c += step) {
+      if (!floor_on_both_sides(raster, c, layer)) return;
+      passed += raster.columns.length(c);
+    }
+  };
+  go_on(columns.begin - 1, -1);
+  go_on(columns.end, +1);
+  return passed > kWidestDoor;
 }
 
-bool WallRasters::floor_on_both_sides(const Raster& raster, Divisions::Range columns, int column,
-                                      std::size_t layer) const {
+bool WallRasters::floor_on_both_sides(const Raster& raster, int column, std::size_t layer) const {
   constexpr double kAround = 0.25;  // [m] along the wall: sparse scans have no point in each column
   const int around = static_cast<int>(std::ceil(kAround / tolerances_.bin));
   bool plus = false, minus = false;
-  for (int c = std::max(columns.begin, column - around); c < std::min(columns.end, column + around + 1);
-       ++c) {
+  for (int c = std::max(0, column - around); c < std::min(raster.columns.bins(), column + around + 1); ++c) {
     const std::size_t i =
         (raster.first_column + static_cast<std::size_t>(c)) * complex_.levels.size() + layer;
     plus = plus || plus_.at(i) > 0;
