@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 
 #include "tests/unit/synthesize/test_scenes.h"
@@ -41,7 +43,7 @@ struct Scan {
 };
 
 TEST(Handheld, RoundsTheCornersOfARoomAndNothingElse) {
-  const Scan scan({{"rounding_m", 0.05}});
+  const Scan scan(nlohmann::json{{"rounding_m", 0.05}});
   bool floor = false;
   for (const SurfaceTriangle& triangle : scan.surfaces.triangles()) {
     const Vec3 normal = triangle.u.cross(triangle.v).normalized();
@@ -65,7 +67,7 @@ TEST(Handheld, WithoutItsErrorsEveryPlaceIsMeasuredWhereItIs) {
 }
 
 TEST(Handheld, WarpsAndDriftsWholeSurfaces) {
-  const Scan scan({{"warp_m", 0.02}, {"drift_m", 0.1}});
+  const Scan scan(nlohmann::json{{"warp_m", 0.02}, {"drift_m", 0.1}});
   const SurfaceTriangle& triangle = scan.surfaces.triangles().front();
   const auto shift = [&](const Vec3& p) { return (scan.handheld.measured(p, triangle) - p).eval(); };
   EXPECT_GT(shift({1, 1, 0}).norm(), 0.01);
