@@ -132,17 +132,29 @@ double WallRasters::omega_of(const Raster& raster, Divisions::Range columns, std
   const int top_rows = static_cast<int>(std::lround(tolerances_.top_share * (rows.end - rows.begin)));
   if (complex_.height(layer) >= kTopNeeds && top_rows > 0) {
     const double top = share(rows.end - top_rows);
-    omega = top > omega && !is_beam(raster, columns, layer) ? top : omega;
+    omega = top > omega && !is_beam(raster, columns, layer, tables) ? top : omega;
   }
   return std::clamp(omega, 0.0, 1.0);
 }
 
 /// Furniture that hides the lower part of a wall also hides the floor before it, and no floor goes through a
-/// wall: where it is seen on both sides from end to end, and on more than a door's width of the line, what
-/// hangs above is a beam.
-bool WallRasters::is_beam(const Raster& raster, Divisions::Range columns, std::size_t layer) const {
+/// wall: where it is seen on both sides from end to end, on more than a door's width of the line, and nothing
+/// hangs as low as a door's head, that is a beam.
+bool WallRasters::is_beam(const Raster& raster, Divisions::Range columns, std::size_t layer,
+                          const Tables& tables) const {
   constexpr double kEndToEnd = 0.8;
-  constexpr double kWidestDoor = 2.0;  // [m]
+  constexpr double kWidestDoor = 2.0;   // [m]
+  constexpr double kHighestDoor = 2.3;  // [m]
+  constexpr double kStray = 0.05;       // coverage
+  const Divisions::Range rows = rows_of(layer);
+  int row = rows.begin;
+  double height = 0;
+  while (row < rows.end && height < kHighestDoor) height += rows_.length(row++);
+  const double below = tables.area.bins(columns.begin, columns.end, rows.begin, row);
+  if (height < kHighestDoor ||
+      tables.covered.bins(columns.begin, columns.end, rows.begin, row) > kStray * below) {
+    return false;
+  }
   double passed = 0, length = 0;
   for (int c = columns.begin; c < columns.end; ++c) {
     passed += floor_on_both_sides(raster, c, layer) ? raster.columns.length(c) : 0;

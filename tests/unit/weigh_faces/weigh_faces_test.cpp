@@ -139,12 +139,21 @@ TEST(WeighFaces, ABeamOverAFloorThatIsSeenOnBothSidesIsNoWall) {
     const TwoRooms scene(0.3);
     SampledCloud cloud(density, 0.004);
     cloud.flat(0, 8.3, 0, 4, 0);
-    cloud.wall({4, 0}, {4, 4}, 2.2, 2.6);
-    cloud.wall({4.3, 0}, {4.3, 4}, 2.2, 2.6);
+    cloud.wall({4, 0}, {4, 4}, 2.35, 2.6);
+    cloud.wall({4.3, 0}, {4.3, 4}, 2.35, 2.6);
     const FaceWeights w = weigh(scene.complex, cloud);
     EXPECT_FALSE(w.is_wall(scene.complex.wall_face(scene.west(), 1))) << density;
     EXPECT_FALSE(w.is_wall(scene.complex.wall_face(scene.east(), 1))) << density;
   }
+}
+
+TEST(WeighFaces, AboveADoorAsWideAsTheCorridorIsAWall) {
+  const TwoRooms scene(0.3);
+  SampledCloud cloud(400, 0.004);
+  cloud.flat(0, 8.3, 0, 4, 0);
+  cloud.wall({4, 0}, {4, 4}, 2.1, 2.6);
+  const FaceWeights w = weigh(scene.complex, cloud);
+  EXPECT_TRUE(w.is_wall(scene.complex.wall_face(scene.west(), 1)));
 }
 
 TEST(WeighFaces, AThinWallBehindACupboardCountsByItsTop) {
