@@ -21,8 +21,8 @@ struct OpenEdge {
 
 /// The open edges of all levels that are peaks, at least 3.5 m long, longest first for each level. On both
 /// sides a floor is seen more than 1.5 m below; beyond the edge nothing lies as high as the ceiling or
-/// higher, and little upright surface stands under it. Their place is where the ceiling's area ends, to a
-/// tenth of the raster or two. Deterministic.
+/// higher, and little upright surface stands under it. Their place is where the ceiling's area ends, to half
+/// of the raster. Deterministic.
 std::vector<OpenEdge> open_edges(const HeightSurvey& survey, const std::vector<SurfaceCell>& cells,
                                  const std::vector<Level>& levels);
 
