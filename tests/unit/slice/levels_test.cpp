@@ -192,6 +192,26 @@ TEST(Levels, WallsThatGoOnPastTheLastLevelGetACap) {
   EXPECT_NEAR(levels[1].z, 2.6, 0.05);
 }
 
+TEST(Levels, ARoofThatWasScannedFromAboveIsNoneWhateverItsParapet) {
+  for (const double parapet : {0.4, 0.9, 1.3}) {
+    SyntheticCloud cloud;
+    cloud.room({0, 0}, {6, 5}, 0.0, 2.6);
+    cloud.horizontal({-0.3, -0.3}, {6.3, 5.3}, 2.95);
+    for (const double y : {-0.3, 5.3}) cloud.wall({-0.3, y}, {6.3, y}, 2.95, 2.95 + parapet);
+    expect_heights(levels_of(cloud), {0.0, 2.6}, 0.005);
+  }
+}
+
+TEST(Levels, AnUpperFloorWhoseCeilingWasNotSeenIsNoRoof) {
+  SyntheticCloud cloud;
+  cloud.room({0, 0}, {6, 5}, 0.0, 2.6);
+  cloud.horizontal({0, 0}, {6, 5}, 2.95);
+  for (const double y : {0.0, 5.0}) cloud.wall({0, y}, {6, y}, 2.95, 5.2);
+  const std::vector<Level> levels = levels_of(cloud);
+  ASSERT_EQ(levels.size(), 4U);
+  EXPECT_TRUE(levels.back().cap);
+}
+
 TEST(Levels, WallsThatEndAtTheCeilingGetNone) {
   SyntheticCloud cloud(0.02);
   cloud.room({0, 0}, {5, 4}, 0.0, 2.5);
