@@ -173,18 +173,21 @@ Candidate measure(const HeightSurvey& survey, const std::vector<SurfaceCell>& ce
 }
 
 /// Walls stand on a floor and end at a ceiling: compares their area in the 30 cm over and under the level.
+/// Walls of the rooms beside it, in the same plan cells, may go on past it: half as much again must stand
+/// than hangs.
 bool is_floor(const Level& level, const HeightSurvey& survey, const std::vector<SurfaceCell>& cells) {
   PlanMask plan(cells, survey.raster_m);
   for (const SurfaceCell& cell : cells) {
     if (level.lo <= cell.z && cell.z <= level.hi) plan.add(cell);
   }
-  double balance = 0;
+  constexpr double kStandsOn = 1.5;
+  double standing = 0, hanging = 0;
   for (const UprightBlock& block : survey.upright) {
     const double above = (block.iz + 0.5) * kUprightHeight - level.z;
     if (std::abs(above) < 0.05 || std::abs(above) > 0.30 || !plan.contains(block)) continue;
-    balance += above > 0 ? block.area_m2 : -block.area_m2;
+    (above > 0 ? standing : hanging) += block.area_m2;
   }
-  return balance > 0;
+  return standing > kStandsOn * hanging;
 }
 
 /// Whether all large surfaces of a candidate are furniture on a larger floor among the others.
