@@ -15,6 +15,7 @@ namespace roomcut::find_openings {
 OpeningTolerances opening_tolerances(const FindOpeningsParams& params, double noise_m, double density);
 
 inline constexpr double kColumn_m = 0.05;  ///< of the walls' rasters
+inline constexpr double kWidestGap_m = 3;  ///< of a wall's columns: what the cut emptied of a doorway
 
 /// The openings of one wall. A place is an opening when *all* of this holds:
 ///  - two jambs, min_width_m … max_width_m apart: upright surfaces between the wall's faces, with points on

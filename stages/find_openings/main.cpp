@@ -14,7 +14,7 @@ using namespace roomcut::find_openings;
 StageInfo info() {
   StageInfo stage;
   stage.name = "find_openings";
-  stage.revision = 3;
+  stage.revision = 4;
   stage.summary = "Finds doors and other passages in the walls between rooms";
   stage.inputs = {
       {"cells", "Cell complex of the second pass"}, {"labels", "Its labels"}, {"cloud", "Points"}};
@@ -34,7 +34,7 @@ void body(StageRun& run, const FindOpeningsParams& params) {
       run.chose("margin_m", tolerances.margin_m);
     }
     const std::vector<RoomWall> walls =
-        find_room_walls(cells.complex, labels.label, params.max_thickness_m, params.max_width_m, kColumn_m);
+        find_room_walls(cells.complex, labels.label, params.max_thickness_m, kWidestGap_m, kColumn_m);
     WallEvidence evidence(walls, cells.complex.levels, {tolerances.margin_m, tolerances.row_m});
     Progress progress = run.progress("observing", cloud.header().points);
     cloud.for_each_tile([&](std::size_t, const CloudTile& tile) { evidence.add(tile); },

@@ -10,7 +10,7 @@ namespace roomcut::find_openings {
 struct FindOpeningsParams {
   bool enabled = true;
   double min_width_m = 0.5;
-  double max_width_m = 3.0;
+  double max_width_m = 6.0;
   double min_height_m = 1.6;
   double max_thickness_m = 0.6;
   std::optional<double> margin_m;  ///< auto: max(1.5 cm, 3 noise)

@@ -19,6 +19,8 @@ namespace {
 
 constexpr double kSmallestNoise_m = 1e-4;
 constexpr double kUnknownNoise_m = 5e-3;
+constexpr double kFewPlanes = 0.02;    // of all neighbourhoods: fewer may be chance
+constexpr double kFarMore = 3;         // noise of one kind scatters by a fifth from place to place
 constexpr double kTwoFaces_m = 0.025;  // scatter of both faces of a wall of 5 cm: more is no plane
 
 /// A tile with all but its points, when they are many: those are handed over from the store.
@@ -195,8 +197,14 @@ double noise_of(const SurfaceEstimates& estimates, double step_m) {
     return std::max(lowest, kUnknownNoise_m);
   }
   const LogHistogram planes = estimates.noise.below(kTwoFaces_m);
+  const double all = estimates.noise.median();
+  // Few clear planes: it is noise like theirs, unless in sparse scans nearly all neighbourhoods hold both
+  // faces of a wall, which scatter far more than the others.
   const bool enough = 4 * planes.total() >= estimates.noise.total();
-  return std::max(lowest, enough ? planes.median() : estimates.noise.median());
+  const bool other =
+      kFewPlanes * static_cast<double>(estimates.noise.total()) <= static_cast<double>(planes.total()) &&
+      kFarMore * planes.median() < all;
+  return std::max(lowest, enough || other ? planes.median() : all);
 }
 
 double density_of(const SurfaceEstimates& estimates) {

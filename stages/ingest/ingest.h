@@ -82,7 +82,9 @@ SurfaceSummary class_tiles(const TiledScan& scan, const IngestParams& params, co
                            const Advance& advance = {});
 
 /// Noise [m]: the median over the clear planes that scatter less than the two faces of a thin wall would, but
-/// not below what rounded coordinates or 0.1 mm allow; 5 mm when no voxel was a clear plane.
+/// not below what rounded coordinates or 0.1 mm allow. When those are fewer than a quarter, over all planes,
+/// unless these scatter three times as much: then they are both faces of walls in a sparse scan; 5 mm when no
+/// voxel was a clear plane.
 double noise_of(const SurfaceEstimates& estimates, double step_m);
 /// Points per square metre; 0 without points.
 double density_of(const SurfaceEstimates& estimates);

@@ -14,7 +14,8 @@
 namespace roomcut::slice {
 namespace {
 
-constexpr double kStep = 0.0025;  // m; grid on which the density is evaluated
+constexpr double kHeadroom = 1.5;  // m; walls on a roof that are lower are a parapet
+constexpr double kStep = 0.0025;   // m; grid on which the density is evaluated
 
 /// Density of horizontal area over height [m^2 per m].
 struct Density {
@@ -172,17 +173,21 @@ Candidate measure(const HeightSurvey& survey, const std::vector<SurfaceCell>& ce
 }
 
 /// Walls stand on a floor and end at a ceiling: compares their area in the 30 cm over and under the level.
-bool is_floor(const Candidate& candidate, const HeightSurvey& survey, PlanMask plan) {
-  for (const SurfaceComponent& surface : candidate.surfaces) {
-    for (const SurfaceCell& cell : surface.cells) plan.add(cell);
+/// Walls of the rooms beside it, in the same plan cells, may go on past it: half as much again must stand
+/// than hangs.
+bool is_floor(const Level& level, const HeightSurvey& survey, const std::vector<SurfaceCell>& cells) {
+  PlanMask plan(cells, survey.raster_m);
+  for (const SurfaceCell& cell : cells) {
+    if (level.lo <= cell.z && cell.z <= level.hi) plan.add(cell);
   }
-  double balance = 0;
+  constexpr double kStandsOn = 1.5;
+  double standing = 0, hanging = 0;
   for (const UprightBlock& block : survey.upright) {
-    const double above = (block.iz + 0.5) * kUprightHeight - candidate.level.z;
+    const double above = (block.iz + 0.5) * kUprightHeight - level.z;
     if (std::abs(above) < 0.05 || std::abs(above) > 0.30 || !plan.contains(block)) continue;
-    balance += above > 0 ? block.area_m2 : -block.area_m2;
+    (above > 0 ? standing : hanging) += block.area_m2;
   }
-  return balance > 0;
+  return standing > kStandsOn * hanging;
 }
 
 /// Whether all large surfaces of a candidate are furniture on a larger floor among the others.
@@ -305,10 +310,9 @@ std::vector<Level> find_levels(const HeightSurvey& survey, const std::vector<Sur
   const double smallest = std::max(0.5, std::min(rules.min_component_m2, 0.5 * largest));
   const double speck = rules.connected ? smallest : 0;  // smaller surfaces make no level
   const CellIndex index(cells);
-  const PlanMask empty_plan(cells, survey.raster_m);
   tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
     const bool large = size_of(candidates[i].level) >= smallest;
-    candidates[i].floor = large && is_floor(candidates[i], survey, empty_plan);
+    candidates[i].floor = large && is_floor(candidates[i].level, survey, cells);
   });
   std::vector<Level> levels;
   for (const Candidate& candidate : candidates) {
@@ -339,7 +343,10 @@ void add_caps(std::vector<Level>& levels, const HeightSurvey& survey, const std:
   }
   const double up = reach_beyond(above, total);
   const double down = reach_beyond(below, total);
-  if (up > 0) {
+  const bool roof = levels.size() > 2 && up < kHeadroom && is_floor(levels.back(), survey, cells);
+  if (up > 0 && roof) {
+    levels.pop_back();
+  } else if (up > 0) {
     const double z = levels.back().z + up;
     levels.push_back({z, z, z, 0, 0, true});
   }

@@ -40,7 +40,9 @@ std::vector<Level> find_levels(const HeightSurvey& survey, const std::vector<Sur
 
 /// Adds a level where walls or sloped surfaces over the building's own footprint go on farther than `reach_m`
 /// beyond the lowest or highest level: the floor or ceiling there was not seen. Less than 1 m^2 or 2 % of all
-/// upright area does not count, and the last 1 % of what goes on may stick out.
+/// upright area does not count, and the last 1 % of what goes on may stick out. A highest level of three or
+/// more on which walls of less than 1.5 m stand is a roof with its parapet, scanned from above: it is taken
+/// out.
 void add_caps(std::vector<Level>& levels, const HeightSurvey& survey, const std::vector<SurfaceCell>& cells,
               double reach_m);
 

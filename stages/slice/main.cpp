@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+
 #include "common/cli/run_stage.h"
 #include "common/cloud/cloud_io.h"
 #include "common/slices/slices_io.h"
@@ -21,6 +23,13 @@ void report(StageRun& run, const SliceResult& result) {
   run.count("levels", static_cast<double>(slices.levels.size()));
   run.count("surfaces too small for a level", static_cast<double>(result.rejected.size()));
   run.count("wall cells", static_cast<double>(cells));
+  double open_m = 0;
+  for (const OpenEdge& edge : result.open_edges) open_m += edge.length_m();
+  run.count("open edges of ceilings", open_m, "m");
+  if (open_m > 0) {
+    run.warn("ceilings end in the open along " + std::to_string(std::lround(open_m)) +
+             " m without a wall, as at glass or an open side; what was seen beyond may be taken for a room");
+  }
   if (const std::string question = unit_question(slices); !question.empty()) run.warn(question);
 }
 
@@ -29,7 +38,7 @@ void report(StageRun& run, const SliceResult& result) {
 int main(int argc, char** argv) {
   SliceParams params;
   StageInfo info{"slice",
-                 4,
+                 5,
                  "Finds floors and ceilings in the height histogram and the wall evidence between them.",
                  {{"cloud", "points in tiles, from ingest"}},
                  {{"slices", "levels, histogram, wall slices"}},

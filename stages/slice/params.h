@@ -20,6 +20,7 @@ struct SliceParams {
   bool connected = true;         ///< min_component_m2 must be one connected surface, else the sum of the band
   bool furniture = true;         ///< surfaces of furniture are told apart and are no levels
   bool upright_only = true;      ///< horizontal and sloped points do not count in wall slices
+  bool open_edges = true;        ///< where ceilings end in the open counts as wall
   double cap_reach_m = 0.2;      ///< walls that go on farther past the last level get a cap [m]
   double step_m = 0.3;           ///< distance of the levels that stand for a slope; 0 = none [m]
   double tall_slice_m = 1.5;     ///< higher wall slices count evidence in their top part only [m]
@@ -50,6 +51,9 @@ inline ParameterTable parameters(SliceParams& p) {
       boolean("furniture", p.furniture, "Tables and beds are told from floors, and are no levels."),
       boolean("upright_only", p.upright_only,
               "Only points of walls and points without a plane count in wall slices; false: all points."),
+      boolean("open_edges", p.open_edges,
+              "Where a ceiling ends straight and the floor goes on under the open sky, as at glass, counts "
+              "as wall."),
       number("cap_reach_m", p.cap_reach_m, "m", 0.05, 1000.0,
              "Walls that go on farther past the last level get a cap there."),
       number("step_m", p.step_m, "m", 0.0, 5.0,

@@ -9,6 +9,7 @@
 #include "common/errors/codes.h"
 #include "common/geometry/preferred_number.h"
 #include "stages/slice/levels.h"
+#include "stages/slice/open_edges.h"
 #include "stages/slice/surfaces.h"
 #include "stages/slice/survey.h"
 #include "stages/slice/wall_slices.h"
@@ -128,6 +129,12 @@ SliceResult slice_cloud(const CloudHeader& header, const TileSource& tiles, cons
   const auto ranges =
       evidence_ranges(slices.levels, params.tall_slice_m, params.evidence_share, 0.5 * slices.tau_m);
   slices.wall_slices = occupy_wall_slices(tiles, ranges, slices.tau_m, params.upright_only);
+  if (params.open_edges) {
+    result.open_edges = open_edges(survey, cells, slices.levels);
+    for (const OpenEdge& edge : result.open_edges) {
+      add_open_edge(edge, slices.tau_m, slices.wall_slices[edge.level - 1]);
+    }
+  }
   require_vertical(survey, slices.wall_slices);
   return result;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/slices/slices.h"
+#include "stages/slice/open_edges.h"
 #include "stages/slice/params.h"
 #include "stages/slice/tile_source.h"
 
@@ -21,6 +22,7 @@ struct SliceResult {
   std::vector<SliceChoice> choices;
   std::vector<Level>
       rejected;  ///< heights with horizontal surface that were no level: tables, shelves, steps
+  std::vector<OpenEdge> open_edges;  ///< they count as walls of the slice below their ceiling
 };
 
 /// Horizontal slicing (paper §2): levels from the peaks of the histogram of horizontal area, wall slices

@@ -119,7 +119,8 @@ Divisions::Range WallRasters::rows_of(std::size_t layer) const {
   return rows_.interval_of(0.5 * (complex_.levels[layer] + complex_.levels[layer + 1]));
 }
 
-double WallRasters::omega_of(Divisions::Range columns, std::size_t layer, const Tables& tables) const {
+double WallRasters::omega_of(const Raster& raster, Divisions::Range columns, std::size_t layer,
+                             const Tables& tables) const {
   constexpr double kTopNeeds = 1.0;  // [m] a layer at least this high may count by its top share
   const Divisions::Range rows = rows_of(layer);
   if (tolerances_.edge_bins) return occupied_columns(columns, rows, tables);
@@ -130,9 +131,58 @@ double WallRasters::omega_of(Divisions::Range columns, std::size_t layer, const 
   double omega = share(rows.begin);
   const int top_rows = static_cast<int>(std::lround(tolerances_.top_share * (rows.end - rows.begin)));
   if (complex_.height(layer) >= kTopNeeds && top_rows > 0) {
-    omega = std::max(omega, share(rows.end - top_rows));
+    const double top = share(rows.end - top_rows);
+    omega = top > omega && !is_beam(raster, columns, layer, tables) ? top : omega;
   }
   return std::clamp(omega, 0.0, 1.0);
+}
+
+/// Furniture that hides the lower part of a wall also hides the floor before it, and no floor goes through a
+/// wall: where it is seen on both sides from end to end, on more than a door's width of the line, and nothing
+/// hangs as low as a door's head, that is a beam.
+bool WallRasters::is_beam(const Raster& raster, Divisions::Range columns, std::size_t layer,
+                          const Tables& tables) const {
+  constexpr double kEndToEnd = 0.8;
+  constexpr double kWidestDoor = 2.0;   // [m]
+  constexpr double kHighestDoor = 2.3;  // [m]
+  constexpr double kStray = 0.05;       // coverage
+  const Divisions::Range rows = rows_of(layer);
+  int row = rows.begin;
+  double height = 0;
+  while (row < rows.end && height < kHighestDoor) height += rows_.length(row++);
+  const double below = tables.area.bins(columns.begin, columns.end, rows.begin, row);
+  if (height < kHighestDoor ||
+      tables.covered.bins(columns.begin, columns.end, rows.begin, row) > kStray * below) {
+    return false;
+  }
+  double passed = 0, length = 0;
+  for (int c = columns.begin; c < columns.end; ++c) {
+    passed += floor_on_both_sides(raster, c, layer) ? raster.columns.length(c) : 0;
+    length += raster.columns.length(c);
+  }
+  if (passed <= kEndToEnd * length) return false;
+  const auto go_on = [&](int c, int step) {
+    for (; c >= 0 && c < raster.columns.bins() && passed <= kWidestDoor; c += step) {
+      if (!floor_on_both_sides(raster, c, layer)) return;
+      passed += raster.columns.length(c);
+    }
+  };
+  go_on(columns.begin - 1, -1);
+  go_on(columns.end, +1);
+  return passed > kWidestDoor;
+}
+
+bool WallRasters::floor_on_both_sides(const Raster& raster, int column, std::size_t layer) const {
+  constexpr double kAround = 0.25;  // [m] along the wall: sparse scans have no point in each column
+  const int around = static_cast<int>(std::ceil(kAround / tolerances_.bin));
+  bool plus = false, minus = false;
+  for (int c = std::max(0, column - around); c < std::min(raster.columns.bins(), column + around + 1); ++c) {
+    const std::size_t i =
+        (raster.first_column + static_cast<std::size_t>(c)) * complex_.levels.size() + layer;
+    plus = plus || plus_.at(i) > 0;
+    minus = minus || minus_.at(i) > 0;
+  }
+  return plus && minus;
 }
 
 /// The share of the columns that hold a point at any height.
@@ -159,7 +209,8 @@ void WallRasters::weigh_coverage(FaceWeights& weights) const {
       for (std::size_t k = 0; k < complex_.layers(); ++k) {
         const Divisions::Range rows = rows_of(k);
         const double points = tables.points.bins(columns.begin, columns.end, rows.begin, rows.end);
-        weights.wall_omega[complex_.wall_face(edge, k)] = static_cast<float>(omega_of(columns, k, tables));
+        weights.wall_omega[complex_.wall_face(edge, k)] =
+            static_cast<float>(omega_of(raster, columns, k, tables));
         weights.wall_points[complex_.wall_face(edge, k)] = static_cast<std::uint32_t>(std::lround(points));
       }
     }

@@ -46,7 +46,10 @@ class WallRasters {
   Tables tables_of(const Raster& raster) const;
   Divisions::Range columns_of(std::size_t edge, const Raster& raster) const;
   Divisions::Range rows_of(std::size_t layer) const;
-  double omega_of(Divisions::Range columns, std::size_t layer, const Tables& tables) const;
+  double omega_of(const Raster& raster, Divisions::Range columns, std::size_t layer,
+                  const Tables& tables) const;
+  bool is_beam(const Raster& raster, Divisions::Range columns, std::size_t layer, const Tables& tables) const;
+  bool floor_on_both_sides(const Raster& raster, int column, std::size_t layer) const;
   static double occupied_columns(Divisions::Range columns, Divisions::Range rows, const Tables& tables);
   double strip(const SparseCounts& counts, const Raster& raster, Divisions::Range columns,
                std::size_t level) const;

@@ -67,6 +67,14 @@ struct Sampling {
   double max_range = 60;           ///< [m]
 };
 
+/// Errors of scans by phones and depth cameras, which no point has of its own.
+struct HandheldErrors {
+  double warp_m = 0;         ///< standard deviation of the surfaces' smooth warp, per coordinate
+  double correlation_m = 1;  ///< over which distance it varies
+  double rounding_m = 0;     ///< radius of the rounded corners of rooms
+  double drift_m = 0;        ///< standard deviation of the position from room to room, per coordinate
+};
+
 /// Copies of the whole building side by side and on top of each other.
 struct Repeat {
   int x = 1, y = 1, storeys = 1;
@@ -87,6 +95,7 @@ struct Scene {
   std::vector<SceneFurniture> furniture;
   std::vector<SceneShaft> shafts;
   Sampling sampling;
+  HandheldErrors handheld;
   Repeat repeat;
 };
 

@@ -33,6 +33,7 @@ class SceneParser {
   void parse_furniture(const json& value, const std::string& path);
   void parse_shaft(const json& value, const std::string& path);
   void parse_sampling(const json& value, const std::string& path);
+  void parse_handheld(const json& value, const std::string& path);
   void parse_repeat(const json& value, const std::string& path);
   void parse_random(const json& value, const std::string& path);
   std::vector<double> wall_halves(SceneNode& node, const std::vector<std::size_t>& side);
@@ -70,6 +71,7 @@ Scene SceneParser::parse(const json& root) {
     each("furniture", &SceneParser::parse_furniture);
     each("shafts", &SceneParser::parse_shaft);
     if (const json* value = node.member("sampling")) parse_sampling(*value, node.path("sampling"));
+    if (const json* value = node.member("handheld")) parse_handheld(*value, node.path("handheld"));
     if (const json* value = node.member("repeat")) parse_repeat(*value, node.path("repeat"));
     if (scene_.rooms.empty() && problems_.empty()) node.problem("there is no room");
   }
@@ -217,6 +219,15 @@ void SceneParser::parse_sampling(const json& value, const std::string& path) {
   sampling.station_height = node.number("station_height", sampling.station_height, 0.1, 10);
   sampling.blind_cone = node.number("blind_cone_deg", sampling.blind_cone / kDegree, 0, 90) * kDegree;
   sampling.max_range = node.number("max_range_m", sampling.max_range, 1, 1e4);
+}
+
+void SceneParser::parse_handheld(const json& value, const std::string& path) {
+  SceneNode node(value, path, problems_);
+  HandheldErrors& errors = scene_.handheld;
+  errors.warp_m = node.number("warp_m", errors.warp_m, 0, 1);
+  errors.correlation_m = node.number("correlation_m", errors.correlation_m, 0.1, 1000);
+  errors.rounding_m = node.number("rounding_m", errors.rounding_m, 0, 0.5);
+  errors.drift_m = node.number("drift_m", errors.drift_m, 0, 1);
 }
 
 void SceneParser::parse_repeat(const json& value, const std::string& path) {

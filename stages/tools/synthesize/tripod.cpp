@@ -27,7 +27,8 @@ TripodSource::TripodSource(const Scene& scene, const Building& building, const S
       building_(building),
       surfaces_(surfaces),
       tree_(triangle_mesh(surfaces.triangles())),
-      holes_(scene, building, surfaces) {
+      holes_(scene, building, surfaces),
+      handheld_(scene, surfaces) {
   if (building.stations.empty()) {
     throw StageError(errors::kSceneInvalid, scene.name, "there is no scanner position",
                      "give sampling.stations, or let a room be scanned");
@@ -117,7 +118,9 @@ std::optional<Vec3> TripodSource::measure(const Vec3& station, double column, do
     }
   }
   if (holes_.covers(station + range * direction)) return std::nullopt;
-  return station + (range + scene_.noise_m * draws.normals().first) * direction;
+  const SurfaceTriangle& triangle = surfaces_.triangles()[static_cast<std::size_t>(hit.triangle)];
+  return handheld_.measured(station + range * direction, triangle) +
+         scene_.noise_m * draws.normals().first * direction;
 }
 
 /// From where the beam enters the recess to its reveal; none when it leaves through the pane.

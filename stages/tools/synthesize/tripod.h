@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "common/mesh/mesh_tree.h"
+#include "stages/tools/synthesize/handheld.h"
 #include "stages/tools/synthesize/holes.h"
 #include "stages/tools/synthesize/random_draws.h"
 #include "stages/tools/synthesize/sample.h"
@@ -35,6 +36,7 @@ class TripodSource : public PointSource {
   const Surfaces& surfaces_;
   MeshTree tree_;
   Holes holes_;
+  Handheld handheld_;
   double step_ = 0;
   std::uint64_t columns_ = 0, rows_ = 0, blocks_per_station_ = 0, columns_per_block_ = 0, expected_ = 0;
 };

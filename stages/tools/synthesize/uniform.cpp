@@ -23,6 +23,7 @@ UniformSource::UniformSource(const Scene& scene, const Building& building, const
       surfaces_(surfaces),
       areas_(surfaces.triangles()),
       holes_(scene, building, surfaces),
+      handheld_(scene, surfaces),
       points_(scene.sampling.points) {}
 
 std::uint64_t UniformSource::blocks() const {
@@ -80,15 +81,17 @@ Vec3 UniformSource::point(std::uint64_t i) const {
 /// The place at `share` of the surface; when it cannot be seen, another one anywhere.
 Vec3 UniformSource::surface_point(double share, PointDraws& draws) const {
   Vec3 p;
+  const SurfaceTriangle* from = nullptr;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const SurfaceTriangle& triangle = surfaces_.triangles()[areas_.find(share * areas_.total())];
+    from = &triangle;
     const double a = draws.unit();
     p = point_in(triangle, a, draws.unit());
     const bool in_window = triangle.kind == PointOrigin::kTruth && surfaces_.window_at(p) != nullptr;
     if (!in_window && !surfaces_.hidden(p, triangle.kind) && !holes_.covers(p)) break;
     share = draws.unit();
   }
-  return p;
+  return handheld_.measured(p, *from);
 }
 
 }  // namespace roomcut::synthesize

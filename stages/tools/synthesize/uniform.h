@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "stages/tools/synthesize/handheld.h"
 #include "stages/tools/synthesize/holes.h"
 #include "stages/tools/synthesize/random_draws.h"
 #include "stages/tools/synthesize/sample.h"
@@ -26,6 +27,7 @@ class UniformSource : public PointSource {
   const Surfaces& surfaces_;
   AreaTable areas_;
   Holes holes_;
+  Handheld handheld_;
   std::uint64_t points_;
 };
 

@@ -42,6 +42,17 @@ TEST(FindOpenings, ADoorwayWithinFiveMillimetres) {
   }
 }
 
+TEST(FindOpenings, APassageWiderThanADoor) {
+  const Patch passage{0.7, 4.3, 0, 2.3};
+  MadeWall wall;
+  wall.faces({passage}, {passage});
+  wall.doorway(passage);
+  const std::vector<Opening> found = wall.search();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR((found[0].jamb_a - found[0].jamb_b).norm(), 3.6, 0.01);
+  EXPECT_NEAR(found[0].head_z, passage.z1, 0.01);
+}
+
 TEST(FindOpenings, ADoorwayThatTheCutHasEmptiedInPart) {
   for (const Patch& gap : {Patch{2.3, 2.5, 0, 2.6}, Patch{2.1, 2.85, 0, 2.6}}) {
     MadeWall wall;

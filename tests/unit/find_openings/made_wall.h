@@ -79,7 +79,7 @@ class MadeWall {
     const FindOpeningsParams params;
     const OpeningTolerances tolerances = opening_tolerances(params, noise_m, density);
     const std::vector<RoomWall> walls =
-        find_room_walls(made, labels(made).label, params.max_thickness_m, params.max_width_m, kColumn_m);
+        find_room_walls(made, labels(made).label, params.max_thickness_m, kWidestGap_m, kColumn_m);
     WallEvidence evidence(walls, made.levels, {tolerances.margin_m, tolerances.row_m});
     evidence.add(tile_);
     return find_openings::find_openings(made, walls, evidence, params, tolerances);

@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
+
+#include "stages/ingest/ingest.h"
 
 namespace roomcut::ingest {
 namespace {
@@ -41,6 +44,23 @@ TEST(LogHistogram, takes_zero_and_huge_values_into_its_end_bins) {
   histogram.add(1e300);
   EXPECT_LT(histogram.median(), 1e-6);
   EXPECT_EQ(LogHistogram().median(), 0);
+}
+
+SurfaceEstimates with_noise(const std::vector<std::pair<double, std::uint64_t>>& values) {
+  SurfaceEstimates estimates;
+  for (const auto& [sigma_m, weight] : values) {
+    estimates.noise.add(static_cast<float>(sigma_m), weight);
+  }
+  return estimates;
+}
+
+TEST(Noise, of_a_sparse_scan_is_that_of_the_few_neighbourhoods_of_one_face) {
+  EXPECT_NEAR(noise_of(with_noise({{0.005, 10}, {0.06, 60}, {0.09, 30}}), 0), 0.005, 2e-4);
+}
+
+TEST(Noise, of_a_noisy_scan_is_not_that_of_its_best_patches) {
+  EXPECT_NEAR(noise_of(with_noise({{0.022, 10}, {0.030, 50}, {0.036, 40}}), 0), 0.030, 1e-3);
+  EXPECT_NEAR(noise_of(with_noise({{0.005, 1}, {0.06, 99}}), 0), 0.06, 2e-3) << "one in a hundred is chance";
 }
 
 }  // namespace

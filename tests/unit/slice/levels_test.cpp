@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "tests/unit/slice/synthetic_cloud.h"
 
 namespace roomcut::slice {
@@ -190,6 +192,44 @@ TEST(Levels, WallsThatGoOnPastTheLastLevelGetACap) {
   EXPECT_FALSE(levels[0].cap);
   EXPECT_TRUE(levels[1].cap);
   EXPECT_NEAR(levels[1].z, 2.6, 0.05);
+}
+
+TEST(Levels, ARaisedFloorAboveALowCeilingIsNoFurnitureOfItAtAnyAngle) {
+  // Rooms beside the narrow hall are higher, so walls go on past its ceiling; its own end below, pipes lie on
+  // it.
+  for (int step = 0; step < 6; ++step) {
+    SyntheticCloud cloud(0.005, 300);
+    cloud.place(step * std::numbers::pi / 18, {0.05 * step, 0.065 * step});
+    cloud.horizontal({0, 4.1}, {12, 6}, 0.0);
+    cloud.horizontal({0, 4.1}, {12, 6}, 2.4);
+    for (const double y : {4.1, 6.0}) cloud.wall({0, y}, {12, y}, 0, 2.0);
+    cloud.wall({2, 5}, {10, 5}, 2.45, 2.7);
+    cloud.room({0, 0}, {12, 4}, 0.0, 2.7);
+    cloud.room({0, 6.1}, {12, 10}, 0.0, 2.7);
+    cloud.room({0, 0}, {7.9, 10}, 3.1, 5.7);
+    cloud.room({8, 3.6}, {12, 6.5}, 3.25, 5.7);
+    expect_heights(levels_of(cloud), {0.0, 2.4, 2.7, 3.1, 3.25, 5.7}, 0.005);
+  }
+}
+
+TEST(Levels, ARoofThatWasScannedFromAboveIsNoneWhateverItsParapet) {
+  for (const double parapet : {0.4, 0.9, 1.3}) {
+    SyntheticCloud cloud;
+    cloud.room({0, 0}, {6, 5}, 0.0, 2.6);
+    cloud.horizontal({-0.3, -0.3}, {6.3, 5.3}, 2.95);
+    for (const double y : {-0.3, 5.3}) cloud.wall({-0.3, y}, {6.3, y}, 2.95, 2.95 + parapet);
+    expect_heights(levels_of(cloud), {0.0, 2.6}, 0.005);
+  }
+}
+
+TEST(Levels, AnUpperFloorWhoseCeilingWasNotSeenIsNoRoof) {
+  SyntheticCloud cloud;
+  cloud.room({0, 0}, {6, 5}, 0.0, 2.6);
+  cloud.horizontal({0, 0}, {6, 5}, 2.95);
+  for (const double y : {0.0, 5.0}) cloud.wall({0, y}, {6, y}, 2.95, 5.2);
+  const std::vector<Level> levels = levels_of(cloud);
+  ASSERT_EQ(levels.size(), 4U);
+  EXPECT_TRUE(levels.back().cap);
 }
 
 TEST(Levels, WallsThatEndAtTheCeilingGetNone) {

@@ -134,6 +134,40 @@ TEST(WeighFaces, FurnitureInFrontOfAWallDoesNotTurnIt) {
   EXPECT_GT(w.wall_left[west], 0.9 * w.wall_omega[west]);
 }
 
+TEST(WeighFaces, ABeamOverAFloorThatIsSeenOnBothSidesIsNoWall) {
+  for (const double density : {100.0, 400.0}) {
+    const TwoRooms scene(0.3);
+    SampledCloud cloud(density, 0.004);
+    cloud.flat(0, 8.3, 0, 4, 0);
+    cloud.wall({4, 0}, {4, 4}, 2.35, 2.6);
+    cloud.wall({4.3, 0}, {4.3, 4}, 2.35, 2.6);
+    const FaceWeights w = weigh(scene.complex, cloud);
+    EXPECT_FALSE(w.is_wall(scene.complex.wall_face(scene.west(), 1))) << density;
+    EXPECT_FALSE(w.is_wall(scene.complex.wall_face(scene.east(), 1))) << density;
+  }
+}
+
+TEST(WeighFaces, AboveADoorAsWideAsTheCorridorIsAWall) {
+  const TwoRooms scene(0.3);
+  SampledCloud cloud(400, 0.004);
+  cloud.flat(0, 8.3, 0, 4, 0);
+  cloud.wall({4, 0}, {4, 4}, 2.1, 2.6);
+  const FaceWeights w = weigh(scene.complex, cloud);
+  EXPECT_TRUE(w.is_wall(scene.complex.wall_face(scene.west(), 1)));
+}
+
+TEST(WeighFaces, AThinWallBehindACupboardCountsByItsTop) {
+  // A wall of 4 cm is one line, with a floor on both sides but for the cupboard's place.
+  const CellComplex complex = grid_complex({-1, 0, 4, 8, 9}, {-1, 0, 4, 5}, {-0.3, 0, 2.6, 2.9});
+  SampledCloud cloud(400, 0.004);
+  cloud.keep = [](const Vec3& p) { return p.x() > 3.4 && p.z() < 1.9 ? 0.0 : 1.0; };
+  cloud.room(0, 4, 0, 4, 0, 2.6);
+  cloud.keep = nullptr;
+  cloud.flat(4.04, 8, 0, 4, 0);
+  const FaceWeights w = weigh(complex, cloud);
+  EXPECT_GT(w.wall_omega[complex.wall_face(edge_near(complex, {4, 2}), 1)], 0.9);
+}
+
 TEST(WeighFaces, ThePlanInsideAThinWallHasNoFloor) {
   const TwoRooms scene(0.1);
   SampledCloud cloud(400, 0.005);
