@@ -12,15 +12,15 @@ namespace {
 constexpr float kPermanent = 0.5F;  // paper: a face with omega above 1/2 is permanent
 constexpr int kColumns = 8;         // looking up and down
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-constexpr double kThickness = 0.5;  // [m] of walls and slabs: how far behind a surface solid is likely
-constexpr double kRising = 0.2;     // sine of the elevation from which a ray looks at the sky or the ground
-constexpr double kPlate = 0.3;      // [m] a cell up to this thickness counts as a wall or slab …
-constexpr double kWide = 0.6;       // [m] … from this on not at all
-constexpr double kOpenings = 0.2;   // share of a room's level rays that windows and doors let out
-constexpr double kStorey = 1.0;     // [m] layers as high hold no slab
-constexpr double kInside = 0.3;     // share of a thin upright cell that may be looked through in a wall …
-constexpr double kRim = 0.8;        // … and from which on it is a room's rim
-constexpr double kOpaque = 1e-3;    // a ray of which less is left has ended
+constexpr double kRising = 0.2;  // sine of the elevation from which a ray looks at the sky or the ground
+constexpr double kPlate = 0.3;   // [m] a cell up to this thickness counts as a wall or slab …
+constexpr double kWide = 0.6;    // [m] … from this on not at all
+constexpr double kStorey = 1.0;  // [m] layers as high hold no slab
+constexpr double kInside = 0.3;  // share of a thin upright cell that may be looked through in a wall …
+constexpr double kRim = 0.8;     // … and from which on it is a room's rim
+constexpr LineLengths kWalls{0.4, 0.8, 8};    // [m] across walls and rooms
+constexpr LineLengths kStoreys{1.8, 2.3, 5};  // [m] nobody stands below 1.8 m
+constexpr double kOpaque = 1e-3;              // a ray of which less is left has ended
 
 struct RayStart {
   Vec3 origin, direction;
@@ -57,10 +57,14 @@ class RaySequence {
 
 RayStart ray_from(const CellComplex& complex, const FaceWalk& walk, std::size_t face, std::size_t layer,
                   const RaySequence& sequence, const RayRules& rules, std::size_t ray) {
-  // Every other ray is level: it still counts walls where floor or ceiling was not seen.
+  // Every other ray is level: it still counts walls where floor or ceiling was not seen. Two of them are one
+  // line, followed both ways.
   const bool level = rules.level && ray % 2 == 0;
-  const auto number = [&](std::size_t k) { return sequence.number(rules.level ? ray / 2 : ray, k); };
-  const double azimuth = 2 * std::numbers::pi * number(3);
+  const bool back = level && ray % 4 == 2;
+  const auto number = [&](std::size_t k) {
+    return sequence.number(level ? ray / 4 : rules.level ? ray / 2 : ray, k);
+  };
+  const double azimuth = std::numbers::pi * (level ? number(3) + (back ? 1 : 0) : 2 * number(3));
   const double up = level ? 0.0 : 2 * number(4) - 1;
   const double flat = std::sqrt(1 - up * up);
   const Vec3 direction{flat * std::cos(azimuth), flat * std::sin(azimuth), up};
@@ -86,21 +90,10 @@ void add_own_faces(const CellComplex& complex, const FaceWeights& weights, std::
   const std::size_t above = complex.level_face(face, layer + 1);
   evidence.front_m2 += area * (weights.level_floor[below] + weights.level_ceiling[above]);
   evidence.back_m2 += area * (weights.level_ceiling[below] + weights.level_floor[above]);
-  evidence.flat = std::max(weights.level_floor[below], weights.level_ceiling[above]);
   evidence.total_m2 += 2 * area;
 }
 
 }  // namespace
-
-double FirstHit::nothing() const {
-  return std::max(0.0, 1 - front - back);
-}
-
-void FirstHit::add(const FirstHit& other, double weight) {
-  front += weight * other.front;
-  back += weight * other.back;
-  near_back += weight * other.near_back;
-}
 
 double CellEvidence::thin() const {
   // Of a plate this is its thickness; of a room about half its width.
@@ -108,41 +101,22 @@ double CellEvidence::thin() const {
   return std::clamp((kWide - thickness) / (kWide - kPlate), 0.0, 1.0);
 }
 
-double CellEvidence::open() const {
-  return std::max(0.0, level.nothing() - kOpenings);
-}
-
-double CellEvidence::outdoors() const {
-  return up.nothing() * down.nothing();
+bool CellEvidence::surely_indoors() const {
+  constexpr double kEnough = 0.25;  // of the lines: half of what is seen of a furnished room's walls
+  constexpr double kFree = 0.15;    // of the rays: not inside a wall
+  return across.fronts >= kEnough && upright.fronts >= kEnough && around.near_back < kFree;
 }
 
 double CellEvidence::looked_through() const {
   // Through windows a scanner sees air that is no room's. Through doors, stairs and gaps of furniture it sees
   // a part of the inside of walls and slabs; of a room's rim behind furniture it sees more.
-  const double upright = height_m >= kStorey ? thin() : 0;
+  const double wall = height_m >= kStorey ? thin() : 0;
   const double rim = std::clamp((carved - kInside) / (kRim - kInside), 0.0, 1.0);
-  return (1 - outdoors()) * (1 - sky) * ((1 - thin()) * carved + upright * rim);
+  return (1 - upright.both_open) * (1 - sky) * ((1 - thin()) * carved + wall * rim);
 }
 
 double CellEvidence::in_slab() const {
   return 0.5 * (up.near_back + down.near_back);
-}
-
-FirstHit first_hit(const std::vector<Crossing>& crossings) {
-  FirstHit hit;
-  double left = 1;
-  for (const Crossing& c : crossings) {
-    if (left < kOpaque) {
-      break;
-    }
-    hit.front += left * c.front;
-    hit.back += left * c.back;
-    if (c.back > 0) {  // few are: the rest need no exponential function
-      hit.near_back += left * c.back * std::exp(-c.distance / kThickness);
-    }
-    left *= 1 - c.front - c.back;
-  }
-  return hit;
 }
 
 namespace {
@@ -165,6 +139,7 @@ void look_around(const CellComplex& complex, const FaceWalk& walk, std::size_t f
   int rising = 0;
   int level = 0;
   int counted = 0;
+  FirstHit before;
   for (int r = 0; r < rays; ++r) {
     const RayStart start = ray_from(complex, walk, face, layer, sequence, rules, static_cast<std::size_t>(r));
     // Without level rays those that hardly rise or fall tell how open a cell is.
@@ -180,6 +155,8 @@ void look_around(const CellComplex& complex, const FaceWalk& walk, std::size_t f
     if (is_level) {
       ++level;
       evidence.level.add(hit, 1);
+      if (level % 2 == 0) evidence.across.add(before, hit, kWalls, 1);
+      before = hit;
     }
     if (start.direction.z() > kRising) {
       ++rising;
@@ -187,6 +164,7 @@ void look_around(const CellComplex& complex, const FaceWalk& walk, std::size_t f
     }
   }
   if (level == 0) evidence.level.front = 1;  // none was asked: no sign of an opening
+  evidence.across = evidence.across.mean(level / 2);
   FirstHit mean;
   mean.add(evidence.level, 1.0 / std::max(1, level));
   evidence.level = mean;
@@ -201,10 +179,15 @@ void look_up_and_down(const CellComplex& complex, const FaceWalk& walk, std::siz
   for (int i = 0; i < kColumns; ++i) {
     // Spread evenly over the face (golden ratio).
     const Vec2 p = walk.point_in(face, (i + 0.5) / kColumns, std::fmod(0.5 + i * std::numbers::phi, 1.0));
-    for (const double up : {-1.0, 1.0}) {
+    const auto look = [&](double up) {
       walk.follow({{p.x(), p.y(), z}, {0, 0, up}, face, layer}, scratch, kNoLimit, kOpaque);
-      (up > 0 ? evidence.up : evidence.down).add(first_hit(scratch), 1.0 / kColumns);
-    }
+      return first_hit(scratch);
+    };
+    const FirstHit down = look(-1);
+    const FirstHit up = look(1);
+    evidence.down.add(down, 1.0 / kColumns);
+    evidence.up.add(up, 1.0 / kColumns);
+    evidence.upright.add(down, up, kStoreys, 1.0 / kColumns);
   }
 }
 

@@ -17,11 +17,24 @@ double surface_m2(const CellEvidence& e) {
   return e.front_m2 + e.back_m2 + kStray_m2 + kStrayShare * e.total_m2;
 }
 
-/// Behind a back a thin cell is a wall, unless it has a ceiling or a floor of its own: a room's rim behind a
-/// cupboard.
+double own_fronts(const CellEvidence& e) {
+  return e.front_m2 / surface_m2(e);
+}
+
+double own_backs(const CellEvidence& e) {
+  return e.back_m2 / surface_m2(e);
+}
+
+/// 1 where rays meet backs as close by as inside a wall, 0 where as far as from the middle of a narrow room.
+double within_a_wall(const CellEvidence& e) {
+  constexpr double kRoom = 0.12, kWall = 0.32;  // share of the rays, fading: 2.5 m, 0.6 m wide
+  return std::clamp((e.around.near_back - kRoom) / (kWall - kRoom), 0.0, 1.0);
+}
+
+/// A back close by on the level and neither floor nor ceiling: a wall of which the other side was not seen. A
+/// room's rim behind a cupboard has a ceiling.
 double behind(const CellEvidence& e) {
-  const double plate = e.thin() * (1 - e.flat);
-  return (1 + plate) * e.around.near_back;
+  return e.level.near_back * (1 - std::max(e.up.front, e.down.front));
 }
 
 struct Feature {
@@ -30,15 +43,29 @@ struct Feature {
 };
 
 constexpr std::array<Feature, kFeatures> kFeature{{
-    {"own_fronts", [](const CellEvidence& e) { return e.front_m2 / surface_m2(e); }},
-    {"own_backs_thin", [](const CellEvidence& e) { return e.thin() * e.back_m2 / surface_m2(e); }},
-    {"own_backs_wide", [](const CellEvidence& e) { return (1 - e.thin()) * e.back_m2 / surface_m2(e); }},
+    {"own_fronts", own_fronts},
+    {"own_backs", own_backs},
+    {"own_backs_in_wall", [](const CellEvidence& e) { return own_backs(e) * within_a_wall(e); }},
     {"fronts_around", [](const CellEvidence& e) { return e.around.front; }},
+    {"backs_close", [](const CellEvidence& e) { return e.around.near_back; }},
     {"behind", behind},
     {"in_slab", [](const CellEvidence& e) { return e.in_slab(); }},
-    {"open", [](const CellEvidence& e) { return e.open(); }},
-    {"outdoors", [](const CellEvidence& e) { return e.outdoors(); }},
+    {"between_rooms", [](const CellEvidence& e) { return e.across.backs_wide; }},
+    {"in_wall", [](const CellEvidence& e) { return e.across.backs_thin; }},
+    {"open", [](const CellEvidence& e) { return e.across.open(); }},
+    {"open_across", [](const CellEvidence& e) { return e.across.both_open; }},
+    {"between_storeys", [](const CellEvidence& e) { return e.upright.backs_thin; }},
+    {"low", [](const CellEvidence& e) { return e.upright.front_back_low; }},
+    {"floor_and_ceiling", [](const CellEvidence& e) { return e.upright.fronts; }},
+    {"storey_between", [](const CellEvidence& e) { return e.upright.backs_wide; }},
+    {"back_below", [](const CellEvidence& e) { return e.down.back; }},
+    {"back_above", [](const CellEvidence& e) { return e.up.back; }},
     {"sky", [](const CellEvidence& e) { return e.sky; }},
+    {"sky_open", [](const CellEvidence& e) { return e.sky * e.across.open(); }},
+    {"outdoors", [](const CellEvidence& e) { return e.upright.both_open; }},
+    {"outdoors_open", [](const CellEvidence& e) { return e.upright.both_open * e.across.open(); }},
+    {"beyond", [](const CellEvidence& e) { return e.beyond; }},
+    {"beyond_unseen", [](const CellEvidence& e) { return e.beyond * (1 - e.around.front); }},
     {"looked_through", [](const CellEvidence& e) { return e.looked_through(); }},
 }};
 

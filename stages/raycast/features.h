@@ -8,7 +8,7 @@
 
 namespace roomcut::raycast {
 
-inline constexpr std::size_t kFeatures = 10;
+inline constexpr std::size_t kFeatures = 24;
 using FeatureValues = std::array<double, kFeatures>;
 
 /// One line of weights.table.

@@ -9,12 +9,15 @@
 #include <utility>
 
 #include "stages/raycast/cell_evidence.h"
+#include "stages/raycast/envelope.h"
 #include "stages/raycast/features.h"
 #include "stages/raycast/implied_faces.h"
 #include "stages/raycast/line_of_sight.h"
 
 namespace roomcut::raycast {
 namespace {
+
+constexpr double kSurelyBeyond_m = 0.5;  // a jog of a facade, or a wall, is no balcony
 
 double sigmoid(double x) {
   return 1 / (1 + std::exp(-x));
@@ -67,25 +70,37 @@ DataTerms cast_rays(const CellComplex& complex, const FaceWeights& weights, cons
   }
   const RayRules rules{params.rays, parity, params.origins == "centre", params.level_rays};
   const std::vector<double> carved = carve_lines_of_sight(complex, walk, weights.stations);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells, 16),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      std::vector<Crossing> scratch;
-                      for (std::size_t c = range.begin(); c < range.end(); ++c) {
-                        CellEvidence e = gather_evidence(complex, weights, walk, complex.face_of(c),
-                                                         complex.layer_of(c), rules, scratch);
-                        e.carved = carved[c];
-                        store(e, c, terms);
-                        const FeatureValues values = features_of(e);
-                        for (std::size_t i = 0; i < values.size(); ++i) {
-                          terms.features[i].value[c] = static_cast<float>(values[i]);
-                        }
-                        const double beta = sigmoid(parity ? 10 * (e.kappa - 0.5) : model.log_odds(values));
-                        const double depth = parity ? 0 : params.surface_depth_m;
-                        terms.beta[c] = static_cast<float>(beta);
-                        terms.d_empty[c] = e.volume_m3 * (1 - beta) + depth * e.back_m2;
-                        terms.d_solid[c] = e.volume_m3 * beta + depth * e.front_m2;
-                      }
-                    });
+  std::vector<CellEvidence> evidence(cells);
+  std::vector<std::uint8_t> indoors(cells);
+  const auto for_cells = [&](auto&& body) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells, 16), body);
+  };
+  for_cells([&](const tbb::blocked_range<std::size_t>& range) {
+    std::vector<Crossing> scratch;
+    for (std::size_t c = range.begin(); c < range.end(); ++c) {
+      evidence[c] =
+          gather_evidence(complex, weights, walk, complex.face_of(c), complex.layer_of(c), rules, scratch);
+      evidence[c].carved = carved[c];
+      indoors[c] = evidence[c].surely_indoors() ? 1 : 0;
+    }
+  });
+  const std::vector<double> beyond = beyond_envelope(complex, weights, indoors);
+  for_cells([&](const tbb::blocked_range<std::size_t>& range) {
+    for (std::size_t c = range.begin(); c < range.end(); ++c) {
+      CellEvidence& e = evidence[c];
+      e.beyond = std::min(1.0, beyond[complex.face_of(c)] / kSurelyBeyond_m);
+      store(e, c, terms);
+      const FeatureValues values = features_of(e);
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        terms.features[i].value[c] = static_cast<float>(values[i]);
+      }
+      const double beta = sigmoid(parity ? 10 * (e.kappa - 0.5) : model.log_odds(values));
+      const double depth = parity ? 0 : params.surface_depth_m;
+      terms.beta[c] = static_cast<float>(beta);
+      terms.d_empty[c] = e.volume_m3 * (1 - beta) + depth * e.back_m2;
+      terms.d_solid[c] = e.volume_m3 * beta + depth * e.front_m2;
+    }
+  });
   return terms;
 }
 

@@ -280,7 +280,6 @@ TEST(LookedThrough, CountsForRoomsAndTheirRimsNotForWallsAndSlabs) {
     e.total_m2 = 2 * (width * 4 + (width + 4) * height);
     e.height_m = height;
     e.carved = carved;
-    e.up.front = e.down.front = 1;
     return e.looked_through();
   };
   EXPECT_NEAR(counts(3, 2.5, 0.5), 0.5, 0.01) << "a room";
@@ -292,6 +291,7 @@ TEST(LookedThrough, CountsForRoomsAndTheirRimsNotForWallsAndSlabs) {
   garden.total_m2 = 60;
   garden.height_m = 2.5;
   garden.carved = 0.9;
+  garden.upright.both_open = 1;
   EXPECT_EQ(garden.looked_through(), 0) << "nothing above, nothing below";
 }
 
