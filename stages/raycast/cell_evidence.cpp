@@ -102,9 +102,10 @@ double CellEvidence::thin() const {
 }
 
 bool CellEvidence::surely_indoors() const {
-  constexpr double kEnough = 0.25;  // of the lines: half of what is seen of a furnished room's walls
-  constexpr double kFree = 0.15;    // of the rays: not inside a wall
-  return across.fronts >= kEnough && upright.fronts >= kEnough && around.near_back < kFree;
+  // Of a furnished room's walls, or of a glazed one's, less is seen than of its floor and ceiling.
+  constexpr double kEnough = 0.6;  // level and upright lines together, of 2
+  constexpr double kFree = 0.15;   // of the rays: not inside a wall
+  return across.fronts + upright.fronts >= kEnough && around.near_back < kFree;
 }
 
 double CellEvidence::looked_through() const {
