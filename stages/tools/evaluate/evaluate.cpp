@@ -99,7 +99,7 @@ void score_spaces(const TriangleMesh& model, const TriangleMesh& truth, const Tr
   scores.column_spacing_m = column_spacing(params.column_spacing_m, (hi - lo).x() * (hi - lo).y());
   std::optional<LabelledSpace> unknown;
   if (cells != nullptr) {
-    unknown.emplace(cells->complex, cells->label, kUnknownLabel);
+    unknown.emplace(cells->complex, cells->label, Label::kUnknown);
   }
   scores.volume = compare_volumes(
       {truth_columns, model_columns, rooms, finder, described.ignored, unknown ? &*unknown : nullptr}, lo, hi,

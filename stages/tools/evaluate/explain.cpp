@@ -231,7 +231,7 @@ void Comparison::judge_cell(const Column& column, std::size_t layer, const std::
   }
   auto& out = empty ? sums.extra : sums.lost;
   const bool by_label = (truth_label_[cell] != 0) != empty;
-  const Cause label_cause = input_.label[cell] == kUnknownLabel ? Cause::kUnknown : Cause::kLabels;
+  const Cause label_cause = input_.label[cell] == Label::kUnknown ? Cause::kUnknown : Cause::kLabels;
   std::vector<Interval> one(1);
   for (const Interval& part : wrong) {
     one[0] = part;

@@ -27,9 +27,6 @@ class IgnoredSpace {
   ComparedAxes axes_;
 };
 
-/// The label of a cell of which nothing is claimed (schemas/labels.md).
-inline constexpr std::uint8_t kUnknownLabel = 2;
-
 /// The cells of one label.
 class LabelledSpace {
  public:

@@ -315,7 +315,7 @@ TEST(Unknown, ARoomThatNobodyEnteredIsDeniedWhenSolidAndUnknownWhenLabelledSo) {
   EXPECT_NEAR(of(denied.explanation->lost_m3, Cause::kLabels), 15, 0.1);
 
   const auto cell = static_cast<std::size_t>(FaceLocator(cells.complex).cell_at({5, 2, 1}));
-  cells.label[cell] = kUnknownLabel;
+  cells.label[cell] = Label::kUnknown;
   const Scores unknown = scored(kRoom, pair_of_rooms(), second_not_entered(), cells);
   EXPECT_NEAR(unknown.volume->iou(), 0.5, 0.01) << "it is no part of the model";
   EXPECT_EQ(unknown.unentered().rooms, (std::array<std::size_t, 3>{0, 1, 0}));
@@ -327,7 +327,7 @@ TEST(Unknown, ARoomThatNobodyEnteredIsDeniedWhenSolidAndUnknownWhenLabelledSo) {
 
 TEST(Unknown, ARoomThatWasEnteredIsLostOverWhatWasSeenEvenWhenUnknown) {
   LabelledCells cells = labelled(grid(kX2, kY, kZ), {kRoomBox});
-  cells.label[static_cast<std::size_t>(FaceLocator(cells.complex).cell_at({5, 2, 1}))] = kUnknownLabel;
+  cells.label[static_cast<std::size_t>(FaceLocator(cells.complex).cell_at({5, 2, 1}))] = Label::kUnknown;
   TruthDescription described = second_not_entered();
   described.rooms[1].scanned = true;
   const Scores scores = scored(kRoom, pair_of_rooms(), described, cells);
