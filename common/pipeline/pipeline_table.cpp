@@ -4,30 +4,14 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "common/text/words.h"
+
 namespace roomcut {
 
 namespace {
 
 constexpr std::string_view kBeside = "-";
 constexpr std::string_view kScan = "scan";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  return first == std::string_view::npos ? std::string_view()
-                                         : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-/// What stands between the separators, trimmed; a blank separator leaves out empty pieces.
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> pieces;
-  while (true) {
-    const std::size_t end = text.find(separator);
-    const std::string_view piece = trimmed(text.substr(0, end));
-    if (separator != ' ' || !piece.empty()) pieces.push_back(piece);
-    if (end == std::string_view::npos) return pieces;
-    text.remove_prefix(end + 1);
-  }
-}
 
 /// Takes what stands before the separator off the front; empty when there is no separator.
 std::string_view take_front(std::string_view& text, char separator) {

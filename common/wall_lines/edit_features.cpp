@@ -6,6 +6,7 @@
 
 #include "common/artefact/json_values.h"
 #include "common/errors/codes.h"
+#include "common/text/words.h"
 #include "common/wall_lines/edit_document.h"
 #include "common/wall_lines/wall_lines_format.h"
 
@@ -15,9 +16,9 @@ namespace {
 
 constexpr std::size_t kLongestId = 64;
 
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
+/// A text without blanks around it, or whatever else it is as JSON.
+std::string trimmed_text(const Json& value) {
+  return value.is_string() ? std::string(trimmed(value.get<std::string>())) : canonical_json(value);
 }
 
 /// A number, or text that is one as a whole: columns of text are common in QGIS.
@@ -28,7 +29,7 @@ std::optional<double> number_of(const Json& value) {
   if (!value.is_string()) {
     return std::nullopt;
   }
-  const std::string text = trimmed(value.get<std::string>());
+  const std::string text(trimmed(value.get<std::string>()));
   double number = 0;
   const auto end = std::from_chars(text.data(), text.data() + text.size(), number);
   return !text.empty() && end.ec == std::errc() && end.ptr == text.data() + text.size()
@@ -40,7 +41,7 @@ std::optional<bool> truth_of(const Json& value) {
   if (value.is_boolean()) {
     return value.get<bool>();
   }
-  std::string text = value.is_string() ? trimmed(value.get<std::string>()) : canonical_json(value);
+  std::string text = trimmed_text(value);
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
   if (text == "true" || text == "t" || text == "yes" || text == "1") {
     return true;
@@ -53,7 +54,7 @@ std::optional<bool> truth_of(const Json& value) {
 
 /// A list as GDAL writes it into formats that have none: "(2:0,2)"; also "[0, 2]" and "0, 2".
 Json list_from_text(std::string text) {
-  text = trimmed(text);
+  text = std::string(trimmed(text));
   const bool ogr =
       !text.empty() && text.front() == '(' && text.back() == ')' && text.find(':') != std::string::npos;
   if (ogr) {
@@ -138,7 +139,7 @@ class FeatureReader {
 
   void read_id(const Json& value) {
     const bool usable = value.is_string() || value.is_number_integer();
-    const std::string id = value.is_string() ? trimmed(value.get<std::string>()) : canonical_json(value);
+    const std::string id = trimmed_text(value);
     const auto control = [](unsigned char c) { return c < 0x20; };
     if (value.is_null()) {
       return;

@@ -60,6 +60,7 @@ void measure_unobserved(const CellComplex& complex, const Labels& labels, Model&
 std::vector<ModelOpening> list_openings(const std::vector<Passage>& passages, const Rooms& rooms,
                                         const Storeys& storeys) {
   std::vector<ModelOpening> list;
+  list.reserve(passages.size());
   for (const Passage& passage : passages) {
     list.push_back({passage.opening, rooms.of_cell[passage.cell_a], rooms.of_cell[passage.cell_b],
                     storeys.of_cell[passage.cell_a], passage.volume_m3});
@@ -75,13 +76,17 @@ CellRooms rooms_of_whole_cells(const Labels& labels, const OpenableComplex& cut,
   out.room.assign(labels.label.size(), -1);
   out.unknown_space.assign(labels.label.size(), -1);
   std::vector<std::pair<bool, double>> best(labels.label.size());  // whether it lies in a room, volume
-  for (std::size_t part = 0; part < cut.whole.size(); ++part) {
-    const std::size_t whole = cut.whole[part];
-    const std::pair<bool, double> weight(rooms.of_cell[part] >= 0, cut.complex.volume(part));
-    if (is_empty(labels.label, whole) && storeys.of_cell[part] >= 0 && weight > best[whole]) {
-      best[whole] = weight;
-      out.storey[whole] = storeys.of_cell[part];
-      out.room[whole] = rooms.of_cell[part];
+  for (std::size_t layer = 0; layer < cut.complex.layers(); ++layer) {
+    for (std::size_t face = 0; face < cut.complex.faces(); ++face) {
+      const std::size_t part = cut.complex.cell(face, layer);
+      const std::size_t whole = cut.whole[part];
+      const std::pair<bool, double> weight(rooms.of_cell[part] >= 0,
+                                           cut.complex.area(face) * cut.complex.height(layer));
+      if (is_empty(labels.label, whole) && storeys.of_cell[part] >= 0 && weight > best[whole]) {
+        best[whole] = weight;
+        out.storey[whole] = storeys.of_cell[part];
+        out.room[whole] = rooms.of_cell[part];
+      }
     }
   }
   return out;

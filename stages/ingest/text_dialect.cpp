@@ -6,6 +6,7 @@
 #include <cctype>
 #include <string>
 
+#include "common/text/words.h"
 #include "stages/ingest/number_text.h"
 
 namespace roomcut::ingest {
@@ -14,12 +15,6 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r";
 constexpr std::size_t kLongestNumber = 64;
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(kBlanks);
-  return begin == std::string_view::npos ? text.substr(0, 0)
-                                         : text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
-}
 
 bool is_digit_at(std::string_view text, std::size_t i) {
   return i < text.size() && number_text::is_digit(text[i]);

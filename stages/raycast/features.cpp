@@ -6,6 +6,10 @@
 #include <locale>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
+#include <vector>
+
+#include "common/text/words.h"
 
 namespace roomcut::raycast {
 namespace {
@@ -69,30 +73,20 @@ constexpr std::array<Feature, kFeatures> kFeature{{
     {"looked_through", [](const CellEvidence& e) { return e.looked_through(); }},
 }};
 
-std::string trimmed(const std::string& text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r");
-  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(" \t\r") + 1 - begin);
-}
-
 [[noreturn]] void refuse(const std::string& what) {
   throw std::invalid_argument("weights.table: " + what);
 }
 
-FeatureWeight parse_line(const std::string& line) {
-  std::istringstream columns(line);
-  std::string name, weight, meaning;
-  std::getline(columns, name, '|');
-  std::getline(columns, weight, '|');
-  std::getline(columns, meaning);
-  FeatureWeight parsed{trimmed(name), 0, trimmed(meaning)};
-  std::istringstream number(weight);
-  number.imbue(std::locale::classic());
+FeatureWeight parse_line(std::string_view line) {
+  const std::vector<std::string_view> column = split(line, '|');
   std::string rest;
-  if (!(number >> parsed.weight) || number >> rest || parsed.meaning.empty() ||
-      !std::isfinite(parsed.weight)) {
-    refuse("not 'feature | weight | meaning': " + line);
+  double weight = 0;
+  std::istringstream number(std::string(column.size() == 3 ? column[1] : ""));
+  number.imbue(std::locale::classic());
+  if (!(number >> weight) || number >> rest || column[2].empty() || !std::isfinite(weight)) {
+    refuse("not 'feature | weight | meaning': " + std::string(line));
   }
-  return parsed;
+  return {std::string(column[0]), weight, std::string(column[2])};
 }
 
 std::size_t place_of(const std::string& name) {
@@ -118,14 +112,12 @@ FeatureWeights parse_weights(const std::string& text) {
   FeatureWeights weights;
   std::array<bool, kFeatures> given{};
   bool constant = false;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
-    line = trimmed(line);
+  for (const std::string_view line : split(text, '\n')) {
     if (line.empty() || line.front() == '#') {
       continue;
     }
-    if (const std::string label = "source:"; line.starts_with(label)) {
-      weights.source = trimmed(line.substr(label.size()));
+    if (constexpr std::string_view kSource = "source:"; line.starts_with(kSource)) {
+      weights.source = trimmed(line.substr(kSource.size()));
       continue;
     }
     const FeatureWeight parsed = parse_line(line);

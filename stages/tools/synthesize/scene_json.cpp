@@ -36,7 +36,7 @@ class SceneParser {
   void parse_handheld(const json& value, const std::string& path);
   void parse_repeat(const json& value, const std::string& path);
   void parse_random(const json& value, const std::string& path);
-  std::vector<double> wall_halves(SceneNode& node, const std::vector<std::size_t>& side);
+  std::vector<double> wall_halves(SceneNode& node, const std::vector<std::size_t>& side) const;
   int room_index(SceneNode& node, const json* name);
   int room_named(SceneNode& node, const std::string& key) { return room_index(node, node.member(key)); }
   std::pair<int, int> two_rooms(SceneNode& node);
@@ -122,7 +122,7 @@ void SceneParser::parse_room(const json& value, const std::string& path, double 
 }
 
 /// Half the wall thickness of every side of an outline: `wall` is one number, or one per listed side.
-std::vector<double> SceneParser::wall_halves(SceneNode& node, const std::vector<std::size_t>& side) {
+std::vector<double> SceneParser::wall_halves(SceneNode& node, const std::vector<std::size_t>& side) const {
   std::vector<double> half;
   const json* wall = node.member("wall");
   const auto is_thickness = [](const json& w) { return w.is_number() && w > 0 && w < 5; };

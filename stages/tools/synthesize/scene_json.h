@@ -15,6 +15,6 @@ namespace roomcut::synthesize {
 Scene read_scene(const std::filesystem::path& path);
 
 /// The same from JSON in memory; `where` names it in messages.
-Scene scene_from_json(const nlohmann::json& json, const std::string& where);
+Scene scene_from_json(const nlohmann::json& root, const std::string& where);
 
 }  // namespace roomcut::synthesize

@@ -60,7 +60,7 @@ std::string scan_digest(const Scene& scene, int threads, std::uint64_t* points) 
   const Surfaces surfaces(scene, building, truth);
   const auto source = make_source(scene, building, surfaces);
   *points = write_scan(path, scene, *source, {}, threads, [](std::uint64_t) {});
-  const std::string digest = sha256_of_file(path);
+  std::string digest = sha256_of_file(path);
   std::ifstream file(path, std::ios::binary);
   std::string line;
   std::uint64_t promised = 0;
