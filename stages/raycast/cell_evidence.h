@@ -23,8 +23,9 @@ struct CellEvidence {
   double total_m2 = 0;  ///< area of all its faces
   double volume_m3 = 0;
   double height_m = 0;
-  double beyond = 0;  ///< how far it lies beyond the building's envelope, 0 … 1
-  double carved = 0;  ///< share of it that a scanner looked through; 0 when no position is known
+  double beyond = 0;        ///< how far it lies beyond the building's envelope, 0 … 1
+  double wall_goes_on = 0;  ///< how surely an unseen piece of a wall that was seen elsewhere, 0 … 1
+  double carved = 0;        ///< share of it that a scanner looked through; 0 when no position is known
 
   /// 1 for a cell as thin as walls and slabs, 0 for one wider than any, between them linear.
   double thin() const;

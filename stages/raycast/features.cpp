@@ -56,6 +56,7 @@ constexpr std::array<Feature, kFeatures> kFeature{{
     {"in_slab", [](const CellEvidence& e) { return e.in_slab(); }},
     {"between_rooms", [](const CellEvidence& e) { return e.across.backs_wide; }},
     {"in_wall", [](const CellEvidence& e) { return e.across.backs_thin; }},
+    {"wall_goes_on", [](const CellEvidence& e) { return e.wall_goes_on; }},
     {"open", [](const CellEvidence& e) { return e.across.open(); }},
     {"open_across", [](const CellEvidence& e) { return e.across.both_open; }},
     {"between_storeys", [](const CellEvidence& e) { return e.upright.backs_thin; }},

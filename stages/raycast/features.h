@@ -8,7 +8,7 @@
 
 namespace roomcut::raycast {
 
-inline constexpr std::size_t kFeatures = 24;
+inline constexpr std::size_t kFeatures = 25;
 using FeatureValues = std::array<double, kFeatures>;
 
 /// One line of weights.table.

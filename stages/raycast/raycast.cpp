@@ -13,6 +13,7 @@
 #include "stages/raycast/features.h"
 #include "stages/raycast/implied_faces.h"
 #include "stages/raycast/line_of_sight.h"
+#include "stages/raycast/wall_strips.h"
 
 namespace roomcut::raycast {
 namespace {
@@ -85,10 +86,12 @@ DataTerms cast_rays(const CellComplex& complex, const FaceWeights& weights, cons
     }
   });
   const std::vector<double> beyond = beyond_envelope(complex, weights, indoors);
+  const std::vector<double> goes_on = walls_that_go_on(complex, weights, evidence);
   for_cells([&](const tbb::blocked_range<std::size_t>& range) {
     for (std::size_t c = range.begin(); c < range.end(); ++c) {
       CellEvidence& e = evidence[c];
       e.beyond = std::min(1.0, beyond[complex.face_of(c)] / kSurelyBeyond_m);
+      e.wall_goes_on = goes_on[c];
       store(e, c, terms);
       const FeatureValues values = features_of(e);
       for (std::size_t i = 0; i < values.size(); ++i) {
