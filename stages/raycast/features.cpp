@@ -29,11 +29,10 @@ double own_backs(const CellEvidence& e) {
   return e.back_m2 / surface_m2(e);
 }
 
-/// 1 where rays meet backs as close by as inside a wall, 0 where as far as from the middle of a narrow room, or
-/// where floor and ceiling were seen: a cupboard's front stands between them, a wall's inside does not.
+/// 1 where rays meet backs as close by as inside a wall, 0 where as far as from the middle of a narrow room.
 double within_a_wall(const CellEvidence& e) {
   constexpr double kRoom = 0.12, kWall = 0.32;  // share of the rays, fading: 2.5 m, 0.6 m wide
-  return std::clamp((e.around.near_back - kRoom) / (kWall - kRoom), 0.0, 1.0) * (1 - e.upright.fronts);
+  return std::clamp((e.around.near_back - kRoom) / (kWall - kRoom), 0.0, 1.0);
 }
 
 /// A back close by on the level and neither floor nor ceiling: a wall of which the other side was not seen. A

@@ -62,21 +62,5 @@ TEST(Weights, BetaIsTheSigmoidOfTheWeighedFeaturesThatAreStored) {
   }
 }
 
-TEST(Features, ACupboardsFrontUnderAFloorAndACeilingThatWereSeenIsNoInsideOfAWall) {
-  const auto in_wall = [](double floor_and_ceiling) {
-    CellEvidence e;
-    e.total_m2 = e.back_m2 = 5;
-    e.around.near_back = 0.5;
-    e.upright.fronts = floor_and_ceiling;
-    const FeatureValues values = features_of(e);
-    for (std::size_t i = 0; i < kFeatures; ++i) {
-      if (shipped_weights().features[i].name == "own_backs_in_wall") return values[i];
-    }
-    return -1.0;
-  };
-  EXPECT_GT(in_wall(0), 0.8);
-  EXPECT_EQ(in_wall(1), 0);
-}
-
 }  // namespace
 }  // namespace roomcut::raycast
