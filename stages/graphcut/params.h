@@ -10,7 +10,7 @@ struct GraphcutParams {
   double free_from = 0.3;
   double min_observed = 0.1;
   std::string unknown = "apart";
-  double doubt = 2.0;
+  double doubt = 1.0;
 };
 
 /// The block `graphcut` of pipeline.yaml, bound to `p`.
