@@ -2,7 +2,8 @@
 // usage: learn_weights LESSONS PRIOR GENERATIONS THREADS [BUILDING …]: learns the weights of the data term
 // with the cut in the loop, with all lessons and with those of each BUILDING left out. LESSONS: JSON, what
 // `make accuracy-weights` writes; PRIOR: a weights.table where the search starts and is drawn to. Prints one
-// line of JSON for each: the weights, and the IoU of every lesson with them.
+// line of JSON for each: the weights, and how every lesson does with them: IoU of graphcut's labels, the
+// truth's own labels' (bound), loss.
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
@@ -53,24 +54,18 @@ Eigen::VectorXd rounded(const Eigen::VectorXd& weights) {
 }
 
 /// How the weights do on every lesson.
-void report(const std::vector<Lesson>& lessons, const std::string& name, const Eigen::VectorXd& weights) {
-  std::vector<double> iou(lessons.size()), bound(lessons.size());
+void report(std::vector<Lesson>& lessons, const std::string& name, const Eigen::VectorXd& weights) {
+  std::vector<Json> scores(lessons.size());
   tbb::parallel_for(std::size_t{0}, lessons.size(), [&](std::size_t i) {
-    iou[i] = lessons[i].iou(weights);
-    bound[i] = lessons[i].bound();
+    const LessonData& data = lessons[i].data();
+    scores[i] = {{"scene", data.scene},         {"building", data.building},
+                 {"final", data.final},         {"iou", lessons[i].iou(weights)},
+                 {"bound", lessons[i].bound()}, {"loss", loss_around(lessons[i], weights)}};
   });
-  Json result{{"name", name}};
+  Json result{{"name", name}, {"lessons", scores}};
   const std::vector<std::string>& names = lessons.front().names();
   for (std::size_t i = 0; i < names.size(); ++i) {
     result["weights"][names[i]] = weights[static_cast<Eigen::Index>(i)];
-  }
-  for (std::size_t i = 0; i < lessons.size(); ++i) {
-    const LessonData& data = lessons[i].data();
-    result["lessons"].push_back({{"scene", data.scene},
-                                 {"building", data.building},
-                                 {"final", data.final},
-                                 {"iou", iou[i]},
-                                 {"bound", bound[i]}});
   }
   std::cout << result.dump() << std::endl;
 }

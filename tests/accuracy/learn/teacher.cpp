@@ -16,13 +16,6 @@ constexpr double kPull = 2e-4;    // cost of weights one scale away from the pri
 constexpr double kMadeUp = 0.3;   // what a loss of synthetic scenes counts …
 constexpr double kWorse = 2;      // … and what goes beyond the loss of the weights that raycast has
 
-double loss_around(Lesson& lesson, Eigen::VectorXd weights) {
-  weights[0] -= kOffset;
-  const double loss = lesson.loss(weights);
-  weights[0] += 2 * kOffset;
-  return (loss + lesson.loss(weights)) / 2;
-}
-
 /// How much of each weight is one step of the search.
 Eigen::VectorXd scale_of(const Eigen::VectorXd& prior) {
   return Eigen::VectorXd::Ones(prior.size()) + 0.3 * prior.cwiseAbs();
@@ -98,6 +91,13 @@ class Teacher {
 };
 
 }  // namespace
+
+double loss_around(Lesson& lesson, Eigen::VectorXd weights) {
+  weights[0] -= kOffset;
+  const double loss = lesson.loss(weights);
+  weights[0] += 2 * kOffset;
+  return (loss + lesson.loss(weights)) / 2;
+}
 
 Eigen::VectorXd in_order(const raycast::FeatureWeights& table, const std::vector<std::string>& names) {
   Eigen::VectorXd weights(static_cast<Eigen::Index>(names.size()));
