@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "common/cells/interfaces.h"
 
@@ -76,6 +77,7 @@ Cut minimum_cut(const CellComplex& complex, const EnergyTerms& terms) {
 struct RepeatedCut::State {
   std::unique_ptr<Graph> graph;
   std::vector<double> gain_m3;  ///< of the last cut
+  bool cut = false;             ///< whether there was one
 };
 
 RepeatedCut::RepeatedCut(const CellComplex& complex, const EnergyTerms& terms)
@@ -85,13 +87,20 @@ RepeatedCut::~RepeatedCut() = default;
 
 std::vector<std::uint8_t> RepeatedCut::label(const std::vector<double>& gain_m3) {
   Graph& graph = *state_->graph;
-  // What is left of a cell's capacity after a flow grows by as much as the capacity does.
+  const auto sign = [](double value) { return static_cast<int>(value > 0) - static_cast<int>(value < 0); };
+  // What is left of a cell's capacity after a flow grows by as much as the capacity does. The search trees of
+  // the last cut must know where its sign changes.
   for (std::size_t c = 0; c < gain_m3.size(); ++c) {
     const auto node = static_cast<int>(c);
-    graph.set_trcap(node, graph.get_trcap(node) + (gain_m3[c] - state_->gain_m3[c]));
+    const double before = graph.get_trcap(node);
+    const double after = before + (gain_m3[c] - state_->gain_m3[c]);
+    graph.set_trcap(node, after);
+    if (state_->cut && sign(after) != sign(before)) {
+      graph.mark_node(node);
+    }
   }
   state_->gain_m3 = gain_m3;
-  graph.maxflow();
+  graph.maxflow(std::exchange(state_->cut, true));
   return labels_of(graph);
 }
 

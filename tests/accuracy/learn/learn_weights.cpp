@@ -60,7 +60,7 @@ void report(std::vector<Lesson>& lessons, const std::string& name, const Eigen::
     const LessonData& data = lessons[i].data();
     scores[i] = {{"scene", data.scene},         {"building", data.building},
                  {"final", data.final},         {"iou", lessons[i].iou(weights)},
-                 {"bound", lessons[i].bound()}, {"loss", loss_around(lessons[i], weights)}};
+                 {"bound", lessons[i].bound()}, {"loss", lessons[i].loss(weights)}};
   });
   Json result{{"name", name}, {"lessons", scores}};
   const std::vector<std::string>& names = lessons.front().names();

@@ -8,16 +8,20 @@
 
 #include "common/cells/evidence_io.h"
 #include "common/cells/interfaces.h"
+#include "stages/graphcut/doubt.h"
 #include "stages/graphcut/energy.h"
 #include "stages/graphcut/graphcut.h"
 
 namespace roomcut::learn {
 namespace {
 
-constexpr double kWall = 4;     // a lost wall costs this many times its volume: it merges rooms
-constexpr double kThin = 0.5;   // DataTerms::thin of what is a wall
-constexpr double kHalf = 0.5;   // of a cell's volume: the truth's label
-constexpr double kBeta = 1e-4;  // features are stored with seven digits
+constexpr double kWall = 4;  // a lost wall costs this many times its volume: it merges rooms
+constexpr double kOffset =
+    0.25;  // [log-odds] no decision may stand on the edge, where nothing is in doubt either
+constexpr double kUnknown = 0.75;  // unknown is no room of the model, yet not denied
+constexpr double kThin = 0.5;      // DataTerms::thin of what is a wall
+constexpr double kHalf = 0.5;      // of a cell's volume: the truth's label
+constexpr double kBeta = 1e-4;     // features are stored with seven digits
 
 bool is_empty_in_truth(const LessonData& data, std::size_t cell) {
   return data.empty[cell] > kHalf * data.sampled[cell];
@@ -85,6 +89,10 @@ Lesson::Lesson(LessonData data)
     volume_.push_back(volume);
     own_empty_.push_back(std::max(0.0, data_.terms.d_empty[c] - volume * (1 - beta)));
     own_solid_.push_back(std::max(0.0, data_.terms.d_solid[c] - volume * beta));
+    const double most = data_.params.unknown == "decided" ? 0 : data_.params.doubt;
+    const graphcut::Doubt doubt = graphcut::doubt_of(data_.terms.seen_inside(c), data_.terms.closed[c], most);
+    lower_.push_back(-kOffset - doubt.invented);
+    upper_.push_back(kOffset + doubt.denied);
   }
   find_costs();
 }
@@ -98,18 +106,22 @@ void Lesson::find_costs() {
   }
 }
 
-double Lesson::loss(const Eigen::VectorXd& weights) {
-  const Eigen::VectorXf odds = features_ * weights.cast<float>();
+std::vector<std::uint8_t> Lesson::cut_at(const Eigen::VectorXf& odds, const std::vector<double>& shift) {
   std::vector<double> gain(volume_.size());
   for (std::size_t c = 0; c < gain.size(); ++c) {
-    const double beta = probability(odds[static_cast<Eigen::Index>(c)]);
-    gain[c] = graphcut::quantised(own_solid_[c] + volume_[c] * beta) -
-              graphcut::quantised(own_empty_[c] + volume_[c] * (1 - beta));
+    const double beta = probability(odds[static_cast<Eigen::Index>(c)] + shift[c]);
+    gain[c] = graphcut::quantised(own_solid_[c] - own_empty_[c] + volume_[c] * (2 * beta - 1));
   }
-  const std::vector<std::uint8_t> label = cut_.label(gain);
+  return cut_.label(gain);
+}
+
+double Lesson::loss(const Eigen::VectorXd& weights) {
+  const Eigen::VectorXf odds = features_ * weights.cast<float>();
+  const std::vector<std::uint8_t> least = cut_at(odds, lower_), most = cut_at(odds, upper_);
   double wrong = 0;
-  for (std::size_t c = 0; c < label.size(); ++c) {
-    wrong += is_empty(label, c) != is_empty_in_truth(data_, c) ? cost_[c] : 0;
+  for (std::size_t c = 0; c < least.size(); ++c) {
+    const double solid = least[c] == most[c] ? (is_empty(least, c) ? 0 : 1) : kUnknown;
+    wrong += cost_[c] * (is_empty_in_truth(data_, c) ? solid : 1 - solid);
   }
   return wrong / truth_m3_;
 }

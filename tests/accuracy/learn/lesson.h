@@ -44,9 +44,11 @@ class Lesson {
   /// Names of the weights: "constant", then the features as data_terms.h5 has them.
   const std::vector<std::string>& names() const { return names_; }
 
-  /// What is wrong in the minimum cut with these weights, as a share of the truth's volume: every cell by
-  /// how sure the truth is of it, walls and slabs between rooms by kWall times their volume. Cells without
-  /// truth (ignored) count nowhere, rooms that nobody entered like all others. Deterministic.
+  /// What is wrong in the minimum cuts with the weights at the one and at the other end of graphcut's doubt
+  /// (and at least kOffset apart), as a share of the truth's volume: every cell by how sure the truth is of
+  /// it, walls and slabs between rooms by kWall times their volume; what the cuts decide differently counts
+  /// as solid to kUnknown. Cells without truth (ignored) count nowhere, rooms that nobody entered like all
+  /// others. Deterministic.
   double loss(const Eigen::VectorXd& weights);
   /// Volume IoU with the truth of the labels that graphcut gives with these weights; unknown is no room.
   double iou(const Eigen::VectorXd& weights) const;
@@ -56,11 +58,13 @@ class Lesson {
  private:
   double iou_of(const std::vector<std::uint8_t>& label) const;
   void find_costs();
+  std::vector<std::uint8_t> cut_at(const Eigen::VectorXf& odds, const std::vector<double>& shift);
 
   LessonData data_;
   std::vector<std::string> names_;
   Eigen::MatrixXf features_;                            ///< cells x weights
   std::vector<double> volume_, own_empty_, own_solid_;  ///< what own faces say [m^3]
+  std::vector<double> lower_, upper_;                   ///< ends of the doubt [log-odds]
   std::vector<double> cost_;
   graphcut::RepeatedCut cut_;
   double truth_m3_ = 0;

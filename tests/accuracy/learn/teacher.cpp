@@ -11,10 +11,9 @@
 namespace roomcut::learn {
 namespace {
 
-constexpr double kOffset = 0.25;  // [log-odds] no decision may stand on the edge: the constant off by this
-constexpr double kPull = 2e-4;    // cost of weights one scale away from the prior
-constexpr double kMadeUp = 0.3;   // what a loss of synthetic scenes counts …
-constexpr double kWorse = 2;      // … and what goes beyond the loss of the weights that raycast has
+constexpr double kPull = 2e-4;   // cost of weights one scale away from the prior
+constexpr double kMadeUp = 0.3;  // what a loss of synthetic scenes counts …
+constexpr double kWorse = 2;     // … and what goes beyond the loss of the weights that raycast has
 
 /// How much of each weight is one step of the search.
 Eigen::VectorXd scale_of(const Eigen::VectorXd& prior) {
@@ -76,7 +75,7 @@ class Teacher {
         [&](const tbb::blocked_range<std::size_t>& range) {
           for (std::size_t i = range.begin(); i < range.end(); ++i) {
             for (std::size_t c = 0; c < candidates.size(); ++c) {
-              loss[c][i] = loss_around(*chosen_[i], candidates[c]);
+              loss[c][i] = chosen_[i]->loss(candidates[c]);
             }
           }
         },
@@ -91,13 +90,6 @@ class Teacher {
 };
 
 }  // namespace
-
-double loss_around(Lesson& lesson, Eigen::VectorXd weights) {
-  weights[0] -= kOffset;
-  const double loss = lesson.loss(weights);
-  weights[0] += 2 * kOffset;
-  return (loss + lesson.loss(weights)) / 2;
-}
 
 Eigen::VectorXd in_order(const raycast::FeatureWeights& table, const std::vector<std::string>& names) {
   Eigen::VectorXd weights(static_cast<Eigen::Index>(names.size()));

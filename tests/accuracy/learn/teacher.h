@@ -16,9 +16,6 @@ namespace roomcut::learn {
 /// missing.
 Eigen::VectorXd in_order(const raycast::FeatureWeights& table, const std::vector<std::string>& names);
 
-/// Mean loss with the constant a little lower and a little higher: no decision may stand on the edge.
-double loss_around(Lesson& lesson, Eigen::VectorXd weights);
-
 struct School {
   std::vector<Lesson>& lessons;
   Eigen::VectorXd shipped;  ///< what made-up scenes may not become worse than
