@@ -51,7 +51,8 @@ help:
 	'                              PRESET=paper_2013: the method as published, beside the defaults' \
 	'make ablation                 what each addition to the paper is worth: all of them off, one at a time; ONLY=, SWITCHES=' \
 	'make accuracy-walls           errors of walls and heights beside their stated sigmas; ONLY="uniform_3mm …", OUT=file' \
-	'make accuracy-weights         after make accuracy: weights of the data term fitted with every building left out; ONLY=, OUT=file;' \
+	'make accuracy-weights         after make accuracy: weights of the data term learned with every building left out; ONLY=, OUT=file,' \
+	'                              FOLDS="duplex …" which are left out (or none), GENERATIONS=200 of the search;' \
 	'                              ROOT=folder of its work folders, here and in make accuracy, instead of work/accuracy/' \
 	'' \
 	'make fuzz                     every reader fed with damaged bytes, SECONDS=60 each (libFuzzer, clang); ONLY="slices edit …"' \
@@ -128,10 +129,8 @@ ablation: build
 accuracy-walls: build
 	@set -f; $(quiet_make) python3 tests/accuracy/walls.py --build "$$BUILD" $${OUT:+--json "$$OUT"} $${ONLY:+--only $$ONLY}
 
-# Debian's own Python: it is the one that has Debian's packages.
 accuracy-weights: build
-	@sh .ci/install-packages.sh debian-packages-ci.txt
-	@$(quiet_make) /usr/bin/python3 tests/accuracy/leave_one_out.py "$$BUILD"
+	@$(quiet_make) python3 tests/accuracy/leave_one_out.py "$$BUILD"
 
 # BENCH: options of tests/bench/bench.py, e.g. "--sizes 1,4,10,40,100 --series grown".
 bench: deps

@@ -54,6 +54,32 @@ TEST(MaxFlow, FindsTheLeastEnergyOfAllLabellings) {
   EXPECT_GT(with_both_labels, 20);
 }
 
+TEST(MaxFlow, RepeatedCutsLabelAsIfEachWereTheFirst) {
+  int changed = 0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const CellComplex complex = random_complex(seed, 5, 3);
+    EnergyTerms terms =
+        energy_terms(complex, random_weights(complex, seed), random_terms(complex, seed), {0.1});
+    RepeatedCut repeated(complex, terms);
+    std::vector<std::uint8_t> before;
+    for (std::uint64_t turn = 0; turn < 6; ++turn) {
+      const EnergyTerms other = energy_terms(complex, random_weights(complex, seed),
+                                             random_terms(complex, 100 * turn + seed), {0.1});
+      std::vector<double> gain(complex.cells());
+      for (std::size_t c = 0; c < gain.size(); ++c) {
+        terms.d_empty[c] = other.d_empty[c];
+        terms.d_solid[c] = other.d_solid[c];
+        gain[c] = terms.d_solid[c] - terms.d_empty[c];
+      }
+      const std::vector<std::uint8_t> label = repeated.label(gain);
+      ASSERT_EQ(label, minimum_cut(complex, terms).label);
+      changed += label != before ? 1 : 0;
+      before = label;
+    }
+  }
+  EXPECT_GT(changed, 40);
+}
+
 TEST(MaxFlow, OfEqualLabellingsTakesTheOneWithFewestEmptyCells) {
   const CellComplex complex = grid_complex(3, 3, 3);
   DataTerms undecided = terms_of(complex, std::vector<float>(complex.cells(), 0.5F));
