@@ -73,7 +73,7 @@ def lessons_of(build, scene):
     first = files_of(work, "first")
     if all(map(os.path.isfile, first.values())):
         passes["first"] = first_truth(build, work, truth, truth_json, first)
-    return [{"scene": scene["name"], "building": scene["kind"], "made_up": "folder" not in scene, "final": name == "final",
+    return [{"scene": scene["name"], "building": scene["kind"], "made_up": scene["group"] not in ("virtual", "virtual_stations"), "final": name == "final",
              "params": os.path.join(work, "params", "graphcut.json"), "truth": cells_truth,
              **{key: files_of(work, name)[file] for key, file in (("cells", "cells"), ("weights", "weights"), ("terms", "data_terms"))}}
             for name, cells_truth in passes.items()]
