@@ -25,7 +25,7 @@ struct DetectLinesParams {
   double inlier_angle_rad =
       17.0 * std::numbers::pi / 180.0;  ///< farthest a cell's angle may be from its line's
   double merge_angle_rad = 1.7 * std::numbers::pi / 180.0;
-  double min_support_m = 0.42;  ///< shortest covered length of a line
+  double min_support_m = 0.5;  ///< shortest covered length of a line
   double max_gap_m = 3.0;      ///< supports farther apart are lines of their own
 };
 
