@@ -62,12 +62,10 @@ Rules derive_rules(const Slices& slices, const WallCells& cells, const DetectLin
     rules.radius_m =
         std::max(rules.radius_m, std::hypot(cells.x[i] - rules.centre.x(), cells.y[i] - rules.centre.y()));
   }
+  // Two faces 8 cm apart must not blur into each other over the building's radius, which no turn changes.
+  const double radius = preferred_number(std::max(1.0, rules.radius_m));
+  const double angle = std::clamp(0.08 / (2 * radius) / kDegree, 0.1, 0.25);
   rules.radius_m = preferred_number_above(std::max(1.0, rules.radius_m));
-  // Two faces 8 cm apart must not blur into each other over the building's half diagonal.
-  const auto [x0, x1] = std::minmax_element(cells.x.begin(), cells.x.end());
-  const auto [y0, y1] = std::minmax_element(cells.y.begin(), cells.y.end());
-  const double half_diagonal = preferred_number(std::max(1.0, 0.5 * std::hypot(*x1 - *x0, *y1 - *y0)));
-  const double angle = std::clamp(0.08 / (2 * half_diagonal) / kDegree, 0.1, 0.25);
   rules.angle_step = kDegree * resolve(params.hough_angle_deg, angle, "hough_angle_deg", choices);
   const double distance = std::clamp(preferred_number(noise), 0.01, 0.02);
   rules.distance_step = resolve(params.hough_distance_m, distance, "hough_distance_m", choices);

@@ -68,18 +68,39 @@ void join_pieces(std::vector<Piece>& pieces, double max_gap_m) {
   }
 }
 
+using BinSums = std::map<std::int64_t, double>;
+
+/// Every bin's sum spread evenly over the bins near it, as far as there are any: what one bin has too much by
+/// chance, or by where the bins begin, its neighbours have too little.
+BinSums spread_out(const BinSums& sums) {
+  constexpr std::int64_t kReach = 2;
+  BinSums spread;
+  for (const auto& [bin, sum] : sums) {
+    const auto begin = sums.lower_bound(bin - kReach);
+    const auto end = sums.upper_bound(bin + kReach);
+    const auto share = sum / static_cast<double>(std::distance(begin, end));
+    for (auto near = begin; near != end; ++near) spread[near->first] += share;
+  }
+  return spread;
+}
+
 /// Covered length per bin along the line: the slice that covers it best counts.
 std::map<std::int64_t, Piece> covered_bins(const WallCells& cells, const CellIndices& on_line,
                                            const Line2& line, double bin_m) {
-  std::map<std::pair<std::int64_t, std::int32_t>, double> sums;
+  std::map<std::int32_t, BinSums> slices;
   std::map<std::int64_t, Piece> bins;
   for (const std::uint32_t i : on_line) {
     const double t = line.along(position(cells, i));
     const auto bin = static_cast<std::int64_t>(std::floor(t / bin_m));
-    double& sum = sums[{bin, cells.slice[i]}];
-    sum = std::min(bin_m, sum + static_cast<double>(cells.weight_m[i]));
+    slices[cells.slice[i]][bin] += static_cast<double>(cells.weight_m[i]);
     Piece& piece = bins.try_emplace(bin, Piece{t, t, 0}).first->second;
-    piece = {std::min(piece.t0, t), std::max(piece.t1, t), std::max(piece.support_m, sum)};
+    piece = {std::min(piece.t0, t), std::max(piece.t1, t), 0};
+  }
+  for (const auto& [slice, sums] : slices) {
+    for (const auto& [bin, sum] : spread_out(sums)) {
+      double& support = bins.at(bin).support_m;
+      support = std::max(support, std::min(bin_m, sum));
+    }
   }
   return bins;
 }

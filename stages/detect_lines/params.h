@@ -61,7 +61,7 @@ inline ParameterTable parameters(DetectLinesParams& p) {
                   "Distance step of the Hough accumulator.", "noise (a preferred number), 1 ... 2 cm"),
       auto_number("hough_angle_deg", p.hough_angle_deg, "deg", 0.05, 5.0,
                   "Angle step of the Hough accumulator.",
-                  "8 cm / (2 x half diagonal, a preferred number), 0.1 ... 0.25 deg"),
+                  "8 cm / (2 x radius, a preferred number), 0.1 ... 0.25 deg"),
   };
 }
 

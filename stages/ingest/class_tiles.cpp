@@ -8,10 +8,10 @@
 #include <memory>
 #include <mutex>
 
-#include "stages/ingest/duplicates.h"
 #include "stages/ingest/ingest.h"
 #include "stages/ingest/large_tile.h"
 #include "stages/ingest/surface_tile.h"
+#include "stages/ingest/tile_place.h"
 
 namespace roomcut::ingest {
 
@@ -28,7 +28,6 @@ struct FinishedTile {
   CloudTile cloud;
   std::unique_ptr<LargeTile> large;
   SurfaceEstimates estimates;
-  std::uint64_t duplicates = 0;
   bool refused = false;
 };
 
@@ -45,7 +44,6 @@ class FinishedTiles {
     free_.pop_back();
     tile->estimates = {};
     tile->refused = false;
-    tile->duplicates = 0;
     tile->large.reset();
     return tile;
   }
@@ -66,30 +64,7 @@ struct Workshop {
   TileRuns runs;
   TileGrid grid;
   SurfaceFinder finder;
-  DuplicateCounter duplicates;
 };
-
-std::uint64_t layers_of(const std::vector<KeptTile>& tiles, std::uint32_t tile) {
-  const auto found =
-      std::lower_bound(tiles.begin(), tiles.end(), tile,
-                       [](const KeptTile& kept, std::uint32_t wanted) { return kept.tile < wanted; });
-  return found != tiles.end() && found->tile == tile ? found->layers : 0;
-}
-
-TilePlace place_of(const TiledScan& scan, const KeptTile& tile) {
-  constexpr int kTiles = fixed_grid::kWindowTiles;
-  const int column = static_cast<int>(tile.tile % kTiles);
-  const int row = static_cast<int>(tile.tile / kTiles);
-  TilePlace place{column + scan.frame.window[0], row + scan.frame.window[1], scan.frame.window[2], {}};
-  for (int k = 0; k < 9; ++k) {
-    const int other_column = column + k % 3 - 1;
-    const int other_row = row + k / 3 - 1;
-    const bool inside = other_column >= 0 && other_row >= 0 && other_column < kTiles && other_row < kTiles;
-    place.layers[static_cast<std::size_t>(k)] =
-        inside ? layers_of(scan.tiles, static_cast<std::uint32_t>(other_row * kTiles + other_column)) : 0;
-  }
-  return place;
-}
 
 void class_tile(const TiledScan& scan, const KeptTile& tile, const UnitScale& scale, Workshop& workshop,
                 FinishedTile& finished) {
@@ -103,7 +78,6 @@ void class_tile(const TiledScan& scan, const KeptTile& tile, const UnitScale& sc
     finished.refused = check.refused();
   }
   make_cloud_part(workshop.grid, surfaces, normals && !finished.refused, finished.cloud);
-  finished.duplicates = workshop.duplicates.count(workshop.grid);
 }
 
 void class_large_tile(const TiledScan& scan, const KeptTile& tile, const UnitScale& scale,
@@ -156,8 +130,7 @@ SurfaceSummary class_tiles(const TiledScan& scan, const IngestParams& params, co
   const auto class_one = [&](std::size_t index) {
     std::shared_ptr<FinishedTile> finished = tiles.take();
     const KeptTile& tile = scan.tiles[index];
-    // One that is not much larger than a band is worked on faster as a whole.
-    if (tile.points > 4 * scan.band_points) {
+    if (is_large(scan, tile)) {
       class_large_tile(scan, tile, scale, params, *finished);
     } else {
       class_tile(scan, tile, scale, workshops.local(), *finished);
@@ -174,12 +147,11 @@ SurfaceSummary class_tiles(const TiledScan& scan, const IngestParams& params, co
       }
     };
     if (tile->large) {
-      tile->duplicates = tile->large->hand_over(take_part);
+      tile->large->hand_over(take_part);
       tile->large.reset();
     } else {
       take_part(tile->cloud, true);
     }
-    summary.duplicates += tile->duplicates;
     tiles.give_back(tile);
   };
   using Tile = std::shared_ptr<FinishedTile>;

@@ -8,51 +8,50 @@ namespace roomcut::ingest {
 
 namespace {
 
-constexpr std::uint32_t kSampled = 16;  // one voxel of so many
+constexpr std::size_t kMostKeys = 1U << 16U;
 
-/// The coordinates mixed into one number; that two others give the same is not to be expected in any scan.
-std::uint64_t key_of(const TileGrid::Point& point) {
+}  // namespace
+
+std::uint64_t key_of_point(float x, float y, float z) {
   constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15;
-  std::uint64_t key =
-      std::uint64_t{std::bit_cast<std::uint32_t>(point.x)} << 32U | std::bit_cast<std::uint32_t>(point.y);
+  std::uint64_t key = std::uint64_t{std::bit_cast<std::uint32_t>(x)} << 32U | std::bit_cast<std::uint32_t>(y);
   key *= kOdd;
   key ^= key >> 32U;
-  key += std::bit_cast<std::uint32_t>(point.z);
+  key += std::bit_cast<std::uint32_t>(z);
   key *= kOdd;
   return key ^ key >> 29U;
 }
 
-}  // namespace
-
-std::uint64_t DuplicateCounter::count_voxel(const TileGrid& grid, std::uint32_t first, std::uint32_t last) {
-  if (last - first < 2) {
-    return 0;
+void DuplicateSample::add(const LocalPoints& points) {
+  for (std::size_t i = 0; i < points.x.size(); ++i) {
+    const std::uint64_t key = key_of_point(points.x[i], points.y[i], points.z[i]);
+    if ((key & mask_) == 0) {
+      keys_.push_back(key);
+      thin();
+    }
   }
-  keys_.clear();
-  for (std::uint32_t i = first; i < last; ++i) {
-    keys_.push_back(key_of(grid.points()[i]));
-  }
-  std::sort(keys_.begin(), keys_.end());
-  const auto distinct = std::unique(keys_.begin(), keys_.end()) - keys_.begin();
-  return keys_.size() - static_cast<std::uint64_t>(distinct);
 }
 
-std::uint64_t DuplicateCounter::count(const TileGrid& grid) {
-  std::uint64_t sampled = 0;
-  std::uint32_t number = 0;
-  for_own_voxels(grid, [&](std::uint32_t /*voxel*/, std::uint32_t first, std::uint32_t last) {
-    if (number++ % kSampled == 0) {
-      sampled += count_voxel(grid, first, last);
-    }
-  });
-  if (sampled == 0) {
-    return 0;
+void DuplicateSample::add(const DuplicateSample& other) {
+  mask_ |= other.mask_;
+  keys_.insert(keys_.end(), other.keys_.begin(), other.keys_.end());
+  std::erase_if(keys_, [&](std::uint64_t key) { return (key & mask_) != 0; });
+  thin();
+}
+
+/// Takes ever fewer coordinates while these are too many: which ones remain depends on all of them alone.
+void DuplicateSample::thin() {
+  while (keys_.size() > kMostKeys && mask_ != ~std::uint64_t{0}) {
+    mask_ = mask_ << 1U | 1U;
+    std::erase_if(keys_, [&](std::uint64_t key) { return (key & mask_) != 0; });
   }
-  std::uint64_t all = 0;
-  for_own_voxels(grid, [&](std::uint32_t /*voxel*/, std::uint32_t first, std::uint32_t last) {
-    all += count_voxel(grid, first, last);
-  });
-  return all;
+}
+
+double DuplicateSample::share() const {
+  std::vector<std::uint64_t> keys = keys_;
+  std::sort(keys.begin(), keys.end());
+  const auto repeated = keys.end() - std::unique(keys.begin(), keys.end());
+  return keys.empty() ? 0 : static_cast<double>(repeated) / static_cast<double>(keys.size());
 }
 
 }  // namespace roomcut::ingest

@@ -4,23 +4,28 @@
 #include <cstdint>
 #include <vector>
 
-#include "stages/ingest/tile_grid.h"
+#include "stages/ingest/scan_frame.h"
 
 namespace roomcut::ingest {
 
-/// Counts points that repeat another one's coordinates, as a file holds them that was written twice over, or
-/// whose scans overlap with themselves. One for each thread.
-class DuplicateCounter {
+/// The coordinates mixed into one number; that two others give the same is not to be expected in any scan.
+/// Equal are coordinates that are so as local float32, within 0.1 mm.
+std::uint64_t key_of_point(float x, float y, float z);
+
+/// How many points of a scan repeat another one's coordinates, from the same few thousand of all coordinates
+/// wherever in the file they stand. One for each thread. What it says does not depend on the order of the
+/// points, nor on how they were spread over threads.
+class DuplicateSample {
  public:
-  /// Points of the last band of `grid`, its halo left out, without whom the coordinates of all of them were
-  /// distinct. One voxel of sixteen is looked at first, and the others only where that has some: exact where
-  /// duplicates are more than a few, 0 where the sample has none. Equal are coordinates that are so as local
-  /// float32, within 0.1 mm. Deterministic.
-  std::uint64_t count(const TileGrid& grid);
+  void add(const LocalPoints& points);
+  void add(const DuplicateSample& other);
+  /// Of the points, those without whom all coordinates would be distinct; 0 without points.
+  double share() const;
 
  private:
-  std::uint64_t count_voxel(const TileGrid& grid, std::uint32_t first, std::uint32_t last);
+  void thin();
   std::vector<std::uint64_t> keys_;
+  std::uint64_t mask_ = 0;  ///< a key is taken when these bits are 0
 };
 
 }  // namespace roomcut::ingest

@@ -18,6 +18,7 @@ struct KeptTile {
   std::uint32_t tile = 0;
   std::uint64_t layers = 0;  ///< bit i: layer i is kept
   std::uint64_t points = 0;
+  std::uint64_t repeated = 0;  ///< further points in the store that are left out (leave_out_duplicates())
 };
 
 /// Where a scan goes on behind what is kept, with too few points to show anything.

@@ -24,6 +24,7 @@ struct IngestCounts {
   std::uint64_t not_finite = 0;  ///< dropped: NaN or infinite
   std::uint64_t thin = 0;        ///< dropped: behind the rest, too few to show a wall
   std::uint64_t ghosts = 0;      ///< dropped: far from the building, in sparse cells
+  std::uint64_t duplicates = 0;  ///< dropped: with the coordinates of another one, when there are many such
   std::uint64_t kept = 0;
 };
 
@@ -53,6 +54,7 @@ struct TiledScan {
   double thin_reach_m = 0;        ///< how far the scan goes on behind what is kept, in points counted as thin
   double step_m = 0;              ///< quantisation of the coordinates
   std::uint64_t band_points = 0;  ///< as in ScanSettings
+  bool distinct = false;          ///< points in `store` that repeat another one's coordinates are left out
 };
 
 /// First pass: reads every block in parallel, once for the scan's middle and once more to sort its points
@@ -70,7 +72,6 @@ CloudHeader header_of(const TiledScan& scan, const std::vector<Vec3>& stations, 
 struct SurfaceSummary {
   SurfaceEstimates estimates;
   std::uint64_t tiles_with_refused_normals = 0;
-  std::uint64_t duplicates = 0;  ///< kept points that repeat another one's coordinates (duplicates.h)
 };
 
 /// Receives the points of a tile, those of one with many points in several parts; true: the last of its tile.

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "stages/ingest/duplicates.h"
-
 namespace roomcut::ingest {
 
 namespace {
@@ -99,6 +97,15 @@ void LargeTile::sort_band(const Band& band) {
   grid_.sort_columns({run_of(points_)}, band.columns, place_, scale_);
 }
 
+std::uint64_t LargeTile::count_points() {
+  std::uint64_t points = 0;
+  for (const Band& band : bands_) {
+    sort_band(band);
+    points += grid_.own_points();
+  }
+  return points;
+}
+
 bool LargeTile::find_surfaces(SurfaceEstimates& estimates) {
   for (const Band& band : bands_) {
     sort_band(band);
@@ -118,17 +125,13 @@ bool LargeTile::find_surfaces(SurfaceEstimates& estimates) {
   return store_.has_hints() && !use_normals_;
 }
 
-std::uint64_t LargeTile::hand_over(const std::function<void(const CloudTile&, bool)>& take) {
+void LargeTile::hand_over(const std::function<void(const CloudTile&, bool)>& take) {
   CloudTile part;
-  DuplicateCounter counter;
-  std::uint64_t duplicates = 0;
   for (const Band& band : bands_) {
     sort_band(band);
     make_cloud_part(grid_, *surfaces_, use_normals_, part);
-    duplicates += counter.count(grid_);
     take(part, &band == &bands_.back());
   }
-  return duplicates;
 }
 
 }  // namespace roomcut::ingest

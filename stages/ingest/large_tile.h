@@ -19,12 +19,15 @@ class LargeTile {
   LargeTile(const TileStore& store, std::uint32_t tile, const TilePlace& place, const UnitScale& scale,
             const IngestParams& params, std::uint64_t band_points);
 
+  /// The tile's own points, those left out that repeat others.
+  std::uint64_t count_points();
+
   /// First: the surfaces, as SurfaceFinder. Returns whether the file's normals were refused.
   bool find_surfaces(SurfaceEstimates& estimates);
 
   /// Then: calls take(points, last) with the tile's own points band by band, each sorted by class, then
-  /// voxel, then file order. Returns the duplicates among them (duplicates.h).
-  std::uint64_t hand_over(const std::function<void(const CloudTile&, bool)>& take);
+  /// voxel, then file order.
+  void hand_over(const std::function<void(const CloudTile&, bool)>& take);
 
  private:
   struct Band {

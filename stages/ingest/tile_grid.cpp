@@ -2,7 +2,8 @@
 #include "stages/ingest/tile_grid.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "stages/ingest/duplicates.h"
 
 namespace roomcut::ingest {
 
@@ -75,7 +76,7 @@ void TileGrid::find_keys(const TileRuns& runs, const TilePlace& place, const Uni
 
 /// A counting sort by column, and then in each column, within the cache, by height: one copy of the tile.
 /// Afterwards columns_begin_ holds the ends.
-void TileGrid::sort_keyed(const TileRuns& runs) {
+void TileGrid::sort_keyed(const TileRuns& runs, bool distinct) {
   sorted_.resize(columns_begin_.back());
   std::size_t i = 0;
   for (const TileRun& run : runs) {
@@ -88,14 +89,52 @@ void TileGrid::sort_keyed(const TileRuns& runs) {
   }
   voxels_ = 0;
   std::size_t first = 0;
+  std::size_t kept = 0;
   for (std::size_t column = 0; column + 1 < columns_begin_.size(); ++column) {
     const std::size_t last = columns_begin_[column];
-    sort_column(first, last);
-    for (std::size_t k = first; k < last; ++k) {  // while the column is in the cache
-      voxels_ += k == first || sorted_[k].height != sorted_[k - 1].height ? 1 : 0;
+    const std::size_t begin = kept;
+    kept = distinct ? move_distinct(first, last, kept) : last;
+    columns_begin_[column] = static_cast<std::uint32_t>(kept);
+    sort_column(begin, kept);
+    for (std::size_t k = begin; k < kept; ++k) {  // while the column is in the cache
+      voxels_ += k == begin || sorted_[k].height != sorted_[k - 1].height ? 1 : 0;
     }
     first = last;
   }
+  sorted_.resize(kept);
+}
+
+/// Moves the first points with their coordinates to `to`, in their order; returns the end there.
+std::size_t TileGrid::move_distinct(std::size_t first, std::size_t last, std::size_t to) {
+  keys_.clear();
+  for (std::size_t i = first; i < last; ++i) {
+    keys_.emplace_back(key_of_point(sorted_[i].x, sorted_[i].y, sorted_[i].z), i);
+  }
+  std::sort(keys_.begin(), keys_.end());
+  firsts_.clear();
+  for (std::size_t k = 0; k < keys_.size(); ++k) {
+    if (k == 0 || keys_[k].first != keys_[k - 1].first) {
+      firsts_.push_back(keys_[k].second);
+    }
+  }
+  std::sort(firsts_.begin(), firsts_.end());
+  for (const std::size_t i : firsts_) {
+    sorted_[to++] = sorted_[i];
+  }
+  return to;
+}
+
+std::uint64_t TileGrid::own_points() const {
+  std::uint64_t points = 0;
+  for (int k = columns_.begin; k < columns_.end; ++k) {
+    const int ix = k % kColumns - kHaloVoxels;
+    const int iy = k / kColumns - kHaloVoxels;
+    const auto column = static_cast<std::size_t>(k);
+    if (ix >= 0 && ix < kTileVoxels && iy >= 0 && iy < kTileVoxels) {
+      points += columns_begin_[column] - (k == 0 ? 0 : columns_begin_[column - 1]);
+    }
+  }
+  return points;
 }
 
 /// Stable.
@@ -144,7 +183,7 @@ void TileGrid::sort_columns(const TileRuns& runs, const TileColumns& columns, co
                             const UnitScale& scale) {
   columns_ = columns;
   find_keys(runs, place, scale);
-  sort_keyed(runs);
+  sort_keyed(runs, place.distinct);
 }
 
 void TileGrid::finish() {
@@ -155,11 +194,7 @@ void TileGrid::finish() {
 }
 
 void TileGrid::build(const TileRuns& runs, const TilePlace& place, const UnitScale& scale) {
-  float lowest_z = std::numeric_limits<float>::max();
-  for (const TileRun& run : runs) {
-    lowest_z = std::min(lowest_z, *std::min_element(run.z, run.z + run.points));
-  }
-  begin(place, lowest_z, scale);
+  begin(place, lowest_of(runs), scale);
   sort_columns(runs, {}, place, scale);
   levels_[0].reserve(voxels_);
   sum_moments(scale);

@@ -16,6 +16,7 @@ struct TilePlace {
   std::int32_t ix = 0, iy = 0;
   std::int32_t window_z = 0;
   std::array<std::uint64_t, 9> layers{};
+  bool distinct = false;  ///< of points with the same coordinates only the first is taken
 };
 
 /// The points of one tile and its halo sorted by voxel, and their moments at every level. A tile with many
@@ -43,6 +44,8 @@ class TileGrid {
   /// Of the last band.
   const std::vector<Point>& points() const { return sorted_; }
   const TileColumns& columns() const { return columns_; }
+  /// How many of them lie in the tile, not in its halo.
+  std::uint64_t own_points() const;
   VoxelLevel& level(int i) { return levels_[static_cast<std::size_t>(i)]; }
   const VoxelLevel& level(int i) const { return levels_[static_cast<std::size_t>(i)]; }
   /// Centre of a voxel in units from the tile's corner, as the moments count.
@@ -50,8 +53,9 @@ class TileGrid {
 
  private:
   void find_keys(const TileRuns& runs, const TilePlace& place, const UnitScale& scale);
-  void sort_keyed(const TileRuns& runs);
+  void sort_keyed(const TileRuns& runs, bool distinct);
   void sort_column(std::size_t first, std::size_t last);
+  std::size_t move_distinct(std::size_t first, std::size_t last, std::size_t to);
 
   std::array<std::int32_t, 3>
       corner_{};  ///< of the halo, local units; the base in height is a coarsest voxel's
@@ -59,6 +63,8 @@ class TileGrid {
   std::vector<std::uint32_t> columns_begin_;
   std::vector<std::uint32_t> heights_begin_;  ///< of one column
   std::vector<Point> column_points_, sorted_;
+  std::vector<std::pair<std::uint64_t, std::size_t>> keys_;  ///< of one column's points
+  std::vector<std::size_t> firsts_;                          ///< of them with the same coordinates
   std::size_t voxels_ =
       0;  ///< of the sorted points: room for one per point would be three times what is needed
   TileColumns columns_;

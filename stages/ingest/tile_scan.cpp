@@ -6,9 +6,11 @@
 #include <numeric>
 
 #include "common/errors/codes.h"
+#include "stages/ingest/duplicates.h"
 #include "stages/ingest/ingest.h"
 #include "stages/ingest/quantisation.h"
 #include "stages/ingest/scan_middle.h"
+#include "stages/ingest/tile_place.h"
 
 namespace roomcut::ingest {
 
@@ -18,8 +20,9 @@ constexpr std::uint64_t kFewestPoints = 100;
 constexpr double kLargestFarShare = 0.1;  // more points beyond the window than this are no ghosts
 constexpr double kLargest_m = 2000;
 constexpr double kSmallest_m = 0.5;
-constexpr double kReach_m = 3000;     // of the points that say where the scan lies
-constexpr double kCoarsest_m = 0.11;  // steps of 6 cm still give walls, of 12 cm none
+constexpr double kReach_m = 3000;         // of the points that say where the scan lies
+constexpr double kManyDuplicates = 0.01;  // of the points: fewer may come of rounded coordinates
+constexpr double kCoarsest_m = 0.11;      // steps of 6 cm still give walls, of 12 cm none
 
 void read_block(const ScanReader& reader, std::size_t index, ScanBlock& block) {
   block.no_returns = 0;
@@ -49,26 +52,39 @@ struct BlockCounts {
 struct Sorting {
   LocalPoints local;
   TileSorter sorter;
+  DuplicateSample duplicates;
 };
 
-std::vector<BlockCounts> sort_blocks(const ScanReader& reader, const ScanFrame& frame, const UnitScale& scale,
-                                     const IngestParams& params, TileStore& store, const Advance& advance) {
-  std::vector<BlockCounts> counts(reader.blocks());
+struct SortedBlocks {
+  std::vector<BlockCounts> counts;
+  double duplicates = 0;  ///< share of the points
+};
+
+SortedBlocks sort_blocks(const ScanReader& reader, const ScanFrame& frame, const UnitScale& scale,
+                         const IngestParams& params, TileStore& store, const Advance& advance) {
+  SortedBlocks blocks{std::vector<BlockCounts>(reader.blocks())};
   tbb::enumerable_thread_specific<Sorting> per_thread([&] {
-    return Sorting{{}, TileSorter(frame, scale, params)};
+    return Sorting{{}, TileSorter(frame, scale, params), {}};
   });
   for_blocks(reader, [&](std::size_t i, const ScanBlock& block) {
     Sorting& own = per_thread.local();
     to_local(block, frame, scale, own.local);
+    own.duplicates.add(own.local);
     SortedBlock sorted;
     own.sorter.sort(own.local, sorted);
-    counts[i] = {block.size() + block.no_returns, block.no_returns, own.local.not_finite, own.local.far};
+    blocks.counts[i] = {block.size() + block.no_returns, block.no_returns, own.local.not_finite,
+                        own.local.far};
     store.put(i, std::move(sorted));
     if (advance) {
       advance(1);
     }
   });
-  return counts;
+  DuplicateSample duplicates;
+  for (const Sorting& own : per_thread) {
+    duplicates.add(own.duplicates);
+  }
+  blocks.duplicates = duplicates.share();
+  return blocks;
 }
 
 void check_extent(const TiledScan& scan, std::uint64_t far, const ScanSettings& settings,
@@ -154,11 +170,10 @@ TiledScan tile_scan(const ScanReader& reader, const ScanSettings& settings, cons
   }
   scan.store = std::make_unique<TileStore>(settings.scratch_folder, reader.blocks(), settings.memory_bytes,
                                            reader.has_normals());
-  const std::vector<BlockCounts> blocks =
-      sort_blocks(reader, scan.frame, scale, params, *scan.store, advance);
+  const SortedBlocks blocks = sort_blocks(reader, scan.frame, scale, params, *scan.store, advance);
   IngestCounts& counts = scan.counts;
   std::uint64_t far = 0;
-  for (const BlockCounts& block : blocks) {
+  for (const BlockCounts& block : blocks.counts) {
     counts.read += block.points;
     counts.no_returns += block.no_returns;
     counts.not_finite += block.not_finite;
@@ -188,6 +203,9 @@ TiledScan tile_scan(const ScanReader& reader, const ScanSettings& settings, cons
   counts.ghosts = real - counts.kept - counts.thin;
   check_extent(scan, far, settings, scale.tile_edge_m());
   check_size(scan, settings);
+  if (blocks.duplicates > kManyDuplicates) {
+    leave_out_duplicates(scan, params);
+  }
   return scan;
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -38,6 +40,15 @@ struct TileRun {
 
 /// All points of a tile and its halo, run after run.
 using TileRuns = std::vector<TileRun>;
+
+/// Height of the lowest point [m].
+inline float lowest_of(const TileRuns& runs) {
+  float lowest = std::numeric_limits<float>::max();
+  for (const TileRun& run : runs) {
+    lowest = std::min(lowest, *std::min_element(run.z, run.z + run.points));
+  }
+  return lowest;
+}
 
 inline TileRun run_of(const TilePoints& points) {
   return {points.x.data(), points.y.data(), points.z.data(),

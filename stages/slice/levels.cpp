@@ -220,20 +220,22 @@ PlanMask footprint(const std::vector<Level>& levels, const HeightSurvey& survey,
 /// Sloped area per height bin between two heights, its sum, and that of all upright area; only over the
 /// building and where no level lies above: what looks sloped under a ceiling is edges and furniture.
 struct Slopes {
+  double lo = 0, hi = 0;  ///< heights between which was looked [m]
   std::map<std::int32_t, double> by_bin;
   double sloped_m2 = 0, upright_m2 = 0;
 };
 
 Slopes slopes_between(const std::vector<UprightBlock>& upright, const PlanMask& building,
                       const PlanMask& ceilings, double lo, double hi) {
-  Slopes slopes;
+  Slopes slopes{lo, hi, {}};
   for (const UprightBlock& block : upright) {
-    const double z = (block.iz + 0.5) * kUprightHeight;
-    if (z < lo || z > hi || !building.contains(block) || ceilings.contains(block)) continue;
-    slopes.upright_m2 += block.area_m2;
+    const double z = block.iz * kUprightHeight;
+    const double inside = (std::min(z + kUprightHeight, hi) - std::max(z, lo)) / kUprightHeight;
+    if (inside <= 0 || !building.contains(block) || ceilings.contains(block)) continue;
+    slopes.upright_m2 += inside * block.area_m2;
     if (block.sloped_m2 <= 0) continue;
-    slopes.sloped_m2 += block.sloped_m2;
-    slopes.by_bin[block.iz] += block.sloped_m2;
+    slopes.sloped_m2 += inside * block.sloped_m2;
+    slopes.by_bin[block.iz] += inside * block.sloped_m2;
   }
   return slopes;
 }
@@ -247,32 +249,36 @@ double area_between(const VerticalHistogram& histogram, double lo, double hi) {
   return area;
 }
 
-/// Heights between which the bulk of the area lies, without 1 % at both ends.
-std::pair<double, double> bulk(const std::map<std::int32_t, double>& area_by_bin, double total) {
-  double sum = 0, lo = 0, hi = 0;
-  bool below = true;
-  for (const auto& [bin, area] : area_by_bin) {
-    sum += area;
-    if (below && sum > 0.01 * total) {
-      lo = bin * kUprightHeight;
-      below = false;
-    }
-    hi = (bin + 1) * kUprightHeight;
-    if (sum > 0.99 * total) break;
+/// The height below which that share of the sloped area lies; inside a bin it is taken to be spread evenly,
+/// so that where the bins begin has no say.
+double height_of(const Slopes& slopes, double share) {
+  const double wanted = share * slopes.sloped_m2;
+  double below = 0, z = 0;
+  for (const auto& [bin, here] : slopes.by_bin) {
+    const double low = std::max(bin * kUprightHeight, slopes.lo);
+    const double high = std::min((bin + 1) * kUprightHeight, slopes.hi);
+    z = low + std::clamp((wanted - below) / here, 0.0, 1.0) * (high - low);
+    below += here;
+    if (below >= wanted) break;
   }
-  return {lo, hi};
+  return z;
 }
 
-/// How far area goes on beyond a level, given outwards from it per height bin [m]; 0 when it is too little to
-/// count.
-double reach_beyond(const std::map<std::int32_t, double>& beyond, double total) {
+/// Heights between which the bulk of the area lies, without 1 % at both ends.
+std::pair<double, double> bulk(const Slopes& slopes) {
+  return {height_of(slopes, 0.01), height_of(slopes, 0.99)};
+}
+
+/// How far area goes on beyond a level, given outwards per height bin [m]; 0 when it is too little to count.
+/// Inside a bin it is taken to be spread evenly; half a bin more, since the last hundredth goes on a little.
+double reach_beyond(const std::map<std::int32_t, double>& beyond, double total, double level_z) {
   double sum = 0;
   for (const auto& [bin, area] : beyond) sum += area;
   if (sum < std::max(1.0, 0.02 * total)) return 0;
   double left = sum;
   for (const auto& [bin, area] : beyond) {
+    if (left - area < 0.01 * sum) return (bin + (left - 0.01 * sum) / area + 0.5) * kUprightHeight - level_z;
     left -= area;
-    if (left < 0.01 * sum) return (bin + 1) * kUprightHeight;
   }
   return 0;
 }
@@ -330,7 +336,7 @@ void add_caps(std::vector<Level>& levels, const HeightSurvey& survey, const std:
               double reach_m) {
   if (levels.empty()) return;
   const PlanMask plan = footprint(levels, survey, cells);
-  std::map<std::int32_t, double> above, below;
+  std::map<std::int32_t, double> above, below;  // below: downwards, of the mirrored heights
   double total = 0;
   for (const UprightBlock& block : survey.upright) {
     total += block.area_m2;
@@ -338,11 +344,11 @@ void add_caps(std::vector<Level>& levels, const HeightSurvey& survey, const std:
     const bool over = z > levels.back().z + reach_m;
     const bool under = z < levels.front().z - reach_m;
     if ((!over && !under) || !plan.contains(block)) continue;
-    if (over) above[static_cast<std::int32_t>((z - levels.back().z) / kUprightHeight)] += block.area_m2;
-    if (under) below[static_cast<std::int32_t>((levels.front().z - z) / kUprightHeight)] += block.area_m2;
+    if (over) above[block.iz] += block.area_m2;
+    if (under) below[-block.iz - 1] += block.area_m2;
   }
-  const double up = reach_beyond(above, total);
-  const double down = reach_beyond(below, total);
+  const double up = reach_beyond(above, total, levels.back().z);
+  const double down = reach_beyond(below, total, -levels.front().z);
   const bool roof = levels.size() > 2 && up < kHeadroom && is_floor(levels.back(), survey, cells);
   if (up > 0 && roof) {
     levels.pop_back();
@@ -372,7 +378,7 @@ void add_steps(std::vector<Level>& levels, const HeightSurvey& survey, const std
     const Slopes slopes =
         slopes_between(survey.upright, building, ceilings, levels[k].hi + kEdge, levels[k + 1].lo - kEdge);
     if (slopes.sloped_m2 < std::max(kSmallest, kShare * slopes.upright_m2)) continue;
-    const auto [lo, hi] = bulk(slopes.by_bin, slopes.sloped_m2);
+    const auto [lo, hi] = bulk(slopes);
     if (slopes.sloped_m2 < kSteep * area_between(survey.horizontal, lo, hi)) continue;
     const int n = static_cast<int>(std::lround((hi - lo) / step_m));
     for (int i = 0; i < n; ++i) {

@@ -38,7 +38,7 @@ void report(StageRun& run, const SliceResult& result) {
 int main(int argc, char** argv) {
   SliceParams params;
   StageInfo info{"slice",
-                 5,
+                 6,
                  "Finds floors and ceilings in the height histogram and the wall evidence between them.",
                  {{"cloud", "points in tiles, from ingest"}},
                  {{"slices", "levels, histogram, wall slices"}},

@@ -96,15 +96,22 @@ void add_tile(const CloudTile& tile, const std::vector<EvidenceRange>& ranges, d
   }
 }
 
-/// Share of the range's height that is occupied, over what a closed wall of this density would show. On a
-/// sparse scan that is above 1 in one cell and 0 in the next: only their mean is right, so weights take it as
-/// it is, up to 2.
+/// Share of the range's height that is occupied, over what a closed wall of this density would show.
 double coverage_of(const EvidenceSum& sum, const EvidenceRange& range, double tau_m) {
   if (sum.slope != 0) return 1;
   const double seen = static_cast<double>(std::popcount(sum.bins)) / range.bins;
   const double density = static_cast<double>(sum.count) / (static_cast<double>(sum.area) * kAreaUnit);
   const double expected = 1 - std::exp(-density * tau_m * range.bin_m());
-  return std::min(2.0, seen / std::max(expected, 0.04));
+  return std::min(1.0, seen / std::max(expected, 0.04));
+}
+
+/// Length of wall in the cell times the share of the range's height that was seen: the area for which the
+/// points stand. It sums up to the same however the grid lies to a wall, one cell wide along it or two, or
+/// across it.
+double covered_length(const EvidenceSum& sum, const EvidenceRange& range, double tau_m) {
+  if (sum.slope != 0) return tau_m;
+  const double height = range.hi - range.lo;
+  return height > 0 ? std::min(2 * tau_m, static_cast<double>(sum.area) * kAreaUnit / height) : 0;
 }
 
 void append_cell(const CellEntry<EvidenceSum>& entry, const EvidenceRange& range, double tau_m,
@@ -115,10 +122,9 @@ void append_cell(const CellEntry<EvidenceSum>& entry, const EvidenceRange& range
   grid.iy.push_back(entry.key.iy);
   grid.x.push_back(static_cast<float>(entry.key.ix * tau_m + static_cast<double>(sum.x) * kLengthUnit / n));
   grid.y.push_back(static_cast<float>(entry.key.iy * tau_m + static_cast<double>(sum.y) * kLengthUnit / n));
-  const double coverage = coverage_of(sum, range, tau_m);
-  grid.coverage.push_back(static_cast<float>(std::min(1.0, coverage)));
-  grid.weight_m.push_back(
-      static_cast<float>(coverage * tau_m * std::min(1.0, range.slice_m / kFullWeightHeight)));
+  grid.coverage.push_back(static_cast<float>(coverage_of(sum, range, tau_m)));
+  grid.weight_m.push_back(static_cast<float>(covered_length(sum, range, tau_m) *
+                                             std::min(1.0, range.slice_m / kFullWeightHeight)));
   grid.area_m2.push_back(static_cast<float>(static_cast<double>(sum.area) * kAreaUnit));
   const double cos2 = static_cast<double>(sum.cos2) * kDirectionUnit;
   const double sin2 = static_cast<double>(sum.sin2) * kDirectionUnit;

@@ -66,6 +66,17 @@ std::int32_t PointSorter::wall_of_unclassed() const {
   return best->line;
 }
 
+/// In sparse scans the neighbourhood of a wall's foot or head holds more of the floor or ceiling than of the
+/// wall, and which of its points count as level depends on where its voxels begin. Off every level, what lies
+/// on a line within the noise is the wall's.
+std::int32_t PointSorter::wall_at_foot() const {
+  const std::int32_t wall = wall_of_unclassed();
+  const auto lies_on_it = [&](const Candidate& c) {
+    return c.line == wall && std::abs(c.e) < tolerances_.wall_tight;
+  };
+  return std::any_of(candidates_.begin(), candidates_.end(), lies_on_it) ? wall : -1;
+}
+
 bool PointSorter::parallel(std::int32_t a, std::int32_t b) const {
   const double apart = std::abs(line(a).theta - line(b).theta);  // both in [0, pi): no remainder is needed
   return std::min(apart, std::numbers::pi - apart) <= tolerances_.azimuth;
@@ -132,12 +143,13 @@ void PointSorter::add(const Vec3& point, SurfaceClass surface, std::uint8_t azim
     }
   }
   const double off = std::abs(near.dz);
-  const std::int32_t wall = wall_of(surface, azimuth);
+  const bool flat =
+      surface == SurfaceClass::kHorizontal && off < std::min(tolerances_.level_reach, near.reach);
+  const bool foot = surface == SurfaceClass::kHorizontal && !flat;
+  const std::int32_t wall = foot ? wall_at_foot() : wall_of(surface, azimuth);
   if (wall >= 0) {
     walls_.add_on(wall, line(wall).along(p), z);
   }
-  const bool flat =
-      surface == SurfaceClass::kHorizontal && off < std::min(tolerances_.level_reach, near.reach);
   // At a wall a point without a class, or of a sloped one, is the wall's: between the two faces of a thin
   // one, where noise mixes them, they would make a floor.
   const double clear = std::max(tolerances_.wall_reach, tolerances_.beside_low);

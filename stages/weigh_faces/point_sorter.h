@@ -47,6 +47,7 @@ class PointSorter {
   void add_beside_levels(const Vec2& p, double z);
   void add_inside(const Vec2& p, double z, const NearLevel& near);
   std::int32_t wall_of_unclassed() const;
+  std::int32_t wall_at_foot() const;
   bool parallel(std::int32_t a, std::int32_t b) const;
   const PlanLine& line(std::int32_t index) const { return lines_.line(index); }
 

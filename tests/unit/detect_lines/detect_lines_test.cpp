@@ -242,6 +242,49 @@ TEST(DetectLines, ADoorDoesNotPartAWall) {
   EXPECT_NEAR(parted->support_m, 5, 0.3);
 }
 
+/// Support of the wall that stands alone in a room which has been turned and moved against the grids; the
+/// upper half of what counts of its height was seen.
+struct Turned {
+  double support_m = 0, angle_step_deg = 0;
+};
+
+Turned half_seen_wall(double angle_rad, const Vec2& shift, double density) {
+  SyntheticCloud cloud(0.004, density);
+  cloud.place(angle_rad, shift);
+  cloud.room({0, 0}, {9, 4}, 0, 2.6);
+  cloud.wall({3, 2}, {6, 2}, 2.27, 2.58);
+  const DetectLinesResult result = detect_lines(slices_of(cloud), {});
+  Turned turned;
+  for (const DetectLinesChoice& choice : result.choices) {
+    if (choice.parameter == "hough_angle_deg") turned.angle_step_deg = choice.value;
+  }
+  const Line2 truth{angle_rad + 0.5 * std::numbers::pi, 0};
+  for (const WallLine& line : result.lines.lines) {
+    if (line.length() < 3.5 && angle_between(line.line().theta, truth.theta) < 0.02) {
+      turned.support_m = std::max(turned.support_m, line.support_m);
+    }
+  }
+  return turned;
+}
+
+TEST(DetectLines, AWallHasTheSameSupportHoweverTheGridsLie) {
+  const Turned still = half_seen_wall(0, {0, 0}, 600);
+  EXPECT_NEAR(still.support_m, 1.5, 0.15);
+  for (const double angle : {0.0, 0.3, 0.25 * std::numbers::pi, 0.5 * std::numbers::pi}) {
+    for (const Vec2& shift : {Vec2(0, 0.02), Vec2(0.013, 0.031)}) {
+      const Turned turned = half_seen_wall(angle, shift, 600);
+      EXPECT_NEAR(turned.support_m, still.support_m, 0.12) << angle << ", " << shift.y();
+      EXPECT_EQ(turned.angle_step_deg, still.angle_step_deg) << angle;
+    }
+  }
+}
+
+TEST(DetectLines, AWallHasNearlyTheSameSupportInAThinnedScan) {
+  const double dense = half_seen_wall(0, {0, 0.01}, 1600).support_m;
+  EXPECT_NEAR(half_seen_wall(0, {0, 0.01}, 400).support_m, dense, 0.1 * dense);
+  EXPECT_NEAR(half_seen_wall(0, {0, 0.01}, 200).support_m, dense, 0.15 * dense);
+}
+
 TEST(DetectLines, UncertaintyGrowsWithNoiseAndShrinksWithLength) {
   SyntheticCloud quiet(0.002), loud(0.01);
   quiet.room({0, 0}, {8, 3}, 0, 2.6);

@@ -104,7 +104,6 @@ struct MadeCloud {
   CloudHeader header;
   std::vector<CloudTile> tiles;
   IngestCounts counts;
-  std::uint64_t duplicates = 0;
   std::size_t largest_part = 0;  ///< points that were handed over at once
 };
 
@@ -136,7 +135,6 @@ inline MadeCloud make_cloud(const ScanReader& reader, const ScanSettings& settin
   cloud.header.noise_m = noise_of(summary.estimates, scan.step_m);
   cloud.header.density = density_of(summary.estimates);
   cloud.counts = scan.counts;
-  cloud.duplicates = summary.duplicates;
   return cloud;
 }
 

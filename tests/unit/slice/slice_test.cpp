@@ -87,16 +87,17 @@ TEST(Slice, FloorAndCeilingWithoutWallsAreErrorN02) {
   EXPECT_EQ(code_of(cloud), "N02");
 }
 
-/// A floor of 8 m x 10 m under a roof of 45 degrees whose ridge runs along x at 4.5 m height.
-SyntheticCloud gable_roof() {
+/// A floor of 8 m x 10 m under a roof of 45 degrees whose ridge runs along x 4.5 m above it.
+SyntheticCloud gable_roof(double floor_z = 0) {
   SyntheticCloud cloud(0.004, 600);
-  cloud.horizontal({0, 0}, {8, 9}, 0.0);
+  cloud.horizontal({0, 0}, {8, 9}, floor_z);
   cloud.surface(
-      {0, 0}, {8, 9}, [](const Vec2& p) { return 4.5 - std::abs(p.y() - 4.5); }, SurfaceClass::kSloped);
+      {0, 0}, {8, 9}, [floor_z](const Vec2& p) { return floor_z + 4.5 - std::abs(p.y() - 4.5); },
+      SurfaceClass::kSloped);
   for (const double x : {0.0, 8.0}) {
     for (int i = 0; i < 18; ++i) {
       const double y = 0.5 * i;
-      cloud.wall({x, y}, {x, y + 0.5}, 0, 4.5 - std::abs(y + 0.25 - 4.5));
+      cloud.wall({x, y}, {x, y + 0.5}, floor_z, floor_z + 4.5 - std::abs(y + 0.25 - 4.5));
     }
   }
   return cloud;
@@ -115,6 +116,27 @@ TEST(Slice, ARoofBecomesStepsOfThirtyCentimetres) {
     const double apart = result.slices.levels[k].z - result.slices.levels[k - 1].z;
     EXPECT_GT(apart, 0.1);
     EXPECT_LT(apart, 0.6);
+  }
+}
+
+TEST(Slice, ARoofsStepsLieAtTheSameHeightsOfItWhereverTheBinsBegin) {
+  const auto steps_over = [](double floor_z) {
+    const SyntheticCloud cloud = gable_roof(floor_z);
+    SliceParams params;
+    params.step_m = 0.28;  // 14.5 of 0.3 m would be 14 or 15
+    std::vector<double> steps;
+    for (const Level& level : slice_cloud(cloud.header(), cloud.source(), params).slices.levels) {
+      if (level.step) steps.push_back(level.z - floor_z);
+    }
+    return steps;
+  };
+  const std::vector<double> still = steps_over(0);
+  for (const double floor_z : {0.012, 0.024, 0.037}) {
+    const std::vector<double> raised = steps_over(floor_z);
+    ASSERT_EQ(raised.size(), still.size());
+    for (std::size_t i = 0; i < still.size(); ++i) {
+      EXPECT_NEAR(raised[i], still[i], 0.006) << floor_z;
+    }
   }
 }
 

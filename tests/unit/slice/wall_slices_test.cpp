@@ -54,6 +54,20 @@ TEST(WallSlices, AWallOfFiveMetresWeighsFiveMetresAtAnyDensity) {
   }
 }
 
+TEST(WallSlices, AWallWeighsItsLengthHoweverTheGridLies) {
+  const auto ranges = evidence_ranges(levels_at({0, 1.0}), 1.5, 0.25);
+  for (const double angle : {0.0, 0.3, 0.25 * std::numbers::pi}) {
+    for (const double shift :
+         {0.0, 0.01, 0.02, 0.03}) {  // from between two rows of cells to the middle of one
+      SyntheticCloud cloud(0.004, 2000);
+      cloud.place(angle, {0.5 * shift, shift});
+      cloud.wall({0, 1}, {5, 1}, 0.3, 0.8);  // half of the slice's height
+      const auto grids = occupy_wall_slices(cloud.source(), ranges, 0.04);
+      EXPECT_NEAR(length_of(grids[0]), 5 * 0.5 / 0.96, 0.1) << angle << ", " << shift;
+    }
+  }
+}
+
 TEST(WallSlices, CellsAreSortedAndHoldTheirCentroids) {
   SyntheticCloud cloud;
   cloud.room({-3, -2}, {2, 2}, 0, 2.5);

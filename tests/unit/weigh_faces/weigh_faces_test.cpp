@@ -237,6 +237,37 @@ TEST(WeighFaces, InACornerAPointWithoutAClassIsTheWallsOnWhichItLies) {
   EXPECT_LT(w.wall_omega[complex.wall_face(edge_near(complex, {0, -0.5}), 0)], 0.1);
 }
 
+/// As sparse scans have it at a wall's foot: every point up to `high` above the floor is of class `surface`.
+FaceWeights with_foot(const CellComplex& complex, SurfaceClass surface, double high) {
+  SampledCloud cloud(400, 0.004);
+  cloud.wall({0, 0}, {0, 4}, 0, 2.6);
+  cloud.flat(0, 4, 0, 4, 0);
+  for (std::size_t i = 0; i < cloud.tile.size(); ++i) {
+    if (cloud.tile.z[i] < high && static_cast<SurfaceClass>(cloud.tile.surface[i]) == SurfaceClass::kWall) {
+      cloud.tile.surface[i] = static_cast<std::uint8_t>(surface);
+    }
+  }
+  return weigh(complex, cloud);
+}
+
+TEST(WeighFaces, AtItsFootAWallIsCoveredWhateverTheVoxelsThereMadeOfItsPoints) {
+  const CellComplex complex = grid_complex({-1, 0, 4, 5}, {-1, 0, 4, 5}, {0, 0.15, 2.6});
+  const std::size_t foot = complex.wall_face(edge_near(complex, {0, 2}), 0);
+  const double as_wall = with_foot(complex, SurfaceClass::kWall, 0.2).wall_omega[foot];
+  EXPECT_GT(as_wall, 0.9);
+  EXPECT_GT(with_foot(complex, SurfaceClass::kHorizontal, 0.2).wall_omega[foot], 0.4);
+  EXPECT_GT(with_foot(complex, SurfaceClass::kNone, 0.2).wall_omega[foot], 0.9 * as_wall);
+}
+
+TEST(WeighFaces, AFloorThatGoesThroughALineIsNoFootOfAWall) {
+  const CellComplex complex = grid_complex({-1, 0, 4}, {-1, 0, 4, 5}, {0, 0.15, 2.6});
+  SampledCloud cloud(400, 0.004);
+  cloud.flat(-1, 4, 0, 4, 0.03);  // drifted
+  const FaceWeights w = weigh(complex, cloud);
+  EXPECT_EQ(w.wall_points[complex.wall_face(edge_near(complex, {0, 2}), 0)], 0U);
+  EXPECT_GT(w.level_omega[complex.level_face(3, 0)], 0.9);
+}
+
 TEST(WeighFaces, WallPointsOfAnotherDirectionDoNotCount) {
   const CellComplex complex = grid_complex({-1, 0, 4, 5}, {-1, 0, 4, 5}, {0, 2.6});
   SampledCloud cloud(2000, 0.004);
