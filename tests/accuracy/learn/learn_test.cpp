@@ -103,6 +103,19 @@ TEST(Learn, ABuildingThatIsLeftOutHasNoSay) {
   EXPECT_GT(learned(odd, "first").best[kOpen], 2);
 }
 
+TEST(Learn, AWeightOfWhichNoLessonTellsKeepsItsPrior) {
+  std::vector<Lesson> lessons;
+  for (const std::uint64_t seed : {1, 2}) {
+    LessonData data = grid_lesson("building", seed, kRight, kPrior);
+    data.terms.features.push_back({"looked_through", 3, "", std::vector<float>(data.sampled.size(), 0.0F)});
+    lessons.emplace_back(std::move(data));
+  }
+  const Eigen::Vector4d prior(kPrior[0], kPrior[1], kPrior[2], 3);
+  const Evolved found = learned_weights({lessons, prior, prior}, "", {0.3, 60, 12, 1});
+  EXPECT_EQ(found.best[3], 3);
+  EXPECT_LT(found.best[kOpen], -1);
+}
+
 TEST(Learn, NothingToLearnFromIsAnError) {
   std::vector<Lesson> lessons;
   lessons.emplace_back(grid_lesson("only", 1, kRight, kPrior));

@@ -44,6 +44,9 @@ class Lesson {
   /// Names of the weights: "constant", then the features as data_terms.h5 has them.
   const std::vector<std::string>& names() const { return names_; }
 
+  /// Whether any cell has the feature of this weight.
+  bool has(Eigen::Index weight) const { return (features_.col(weight).array() != 0).any(); }
+
   /// What is wrong in the minimum cuts with the weights at the one and at the other end of graphcut's doubt
   /// (and at least kOffset apart), as a share of the truth's volume: every cell by how sure the truth is of
   /// it, walls and slabs between rooms by kWall times their volume; what the cuts decide differently counts

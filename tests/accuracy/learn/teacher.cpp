@@ -11,9 +11,9 @@
 namespace roomcut::learn {
 namespace {
 
-constexpr double kPull = 2e-4;   // cost of weights one scale away from the prior
-constexpr double kMadeUp = 0.3;  // what a loss of synthetic scenes counts …
-constexpr double kWorse = 2;     // … and what goes beyond the loss of the weights that raycast has
+constexpr double kPull = 2e-4;  // cost of weights one scale away from the prior
+constexpr double kMadeUp = 1;   // what a loss of synthetic scenes counts …
+constexpr double kWorse = 2;    // … and what goes beyond the loss of the weights that raycast has
 
 /// How much of each weight is one step of the search.
 Eigen::VectorXd scale_of(const Eigen::VectorXd& prior) {
@@ -35,6 +35,12 @@ class Teacher {
     }
     share_lessons();
     shipped_ = losses({school.shipped}).front();
+  }
+
+  /// Whether any lesson has something to say of this weight.
+  bool knows(Eigen::Index weight) const {
+    return std::any_of(chosen_.begin(), chosen_.end(),
+                       [&](const Lesson* lesson) { return lesson->has(weight); });
   }
 
   std::vector<double> costs(const std::vector<Eigen::VectorXd>& candidates) {
@@ -107,8 +113,12 @@ Eigen::VectorXd in_order(const raycast::FeatureWeights& table, const std::vector
 
 Evolved learned_weights(const School& school, const std::string& left_out, const EvolutionParams& params) {
   Teacher teacher(school, left_out);
+  Eigen::VectorXd scale = scale_of(school.prior);
+  for (Eigen::Index i = 0; i < scale.size(); ++i) {
+    scale[i] = teacher.knows(i) ? scale[i] : 0;
+  }
   return evolve([&](const std::vector<Eigen::VectorXd>& candidates) { return teacher.costs(candidates); },
-                school.prior, scale_of(school.prior), params);
+                school.prior, scale, params);
 }
 
 }  // namespace roomcut::learn
