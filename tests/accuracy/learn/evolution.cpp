@@ -11,6 +11,8 @@
 namespace roomcut::learn {
 namespace {
 
+constexpr double kAsGood = 1.02;  // the luckiest candidate is chance, the middle of the last ones is not
+
 /// Normal numbers that every standard library makes alike (Box and Muller).
 class Normal {
  public:
@@ -95,6 +97,10 @@ Evolved evolve(const Costs& costs, const Eigen::VectorXd& start, const Eigen::Ve
     covariance = (1 - rates.one - rates.several) * covariance + rates.one * path * path.transpose() +
                  rates.several * spread;
     sigma *= std::exp(rates.sigma_path / rates.damping * (sigma_path.norm() / rates.length - 1));
+  }
+  const Eigen::VectorXd middle = placed(mean);
+  if (const double cost = costs({middle}).front(); cost <= kAsGood * found.cost) {
+    return {middle, cost};
   }
   return found;
 }

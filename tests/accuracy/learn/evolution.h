@@ -26,7 +26,8 @@ struct Evolved {
 
 /// Minimises a function that has steps and no gradient by CMA-ES (Hansen 2016, The CMA Evolution Strategy: A
 /// Tutorial, arXiv:1604.00772, with its default settings). `scale`: how much of each variable is one unit.
-/// The same result for the same seed.
+/// `best`: the middle of the last generation, where that is as good as the best candidate of all. The same
+/// result for the same seed.
 Evolved evolve(const Costs& costs, const Eigen::VectorXd& start, const Eigen::VectorXd& scale,
                const EvolutionParams& params);
 

@@ -44,7 +44,7 @@ LessonData grid_lesson(const std::string& building, std::uint64_t seed, const Ei
   return data;
 }
 
-const Eigen::Vector3d kRight(0, -4, 4), kPrior(-1, 1, 3), kOdd(0, 6, -6);
+const Eigen::Vector3d kRight(0, -4, 4), kPrior(-1, 0, 3), kOdd(0, 6, -6);
 
 std::vector<Lesson> two_buildings(const Eigen::Vector3d& of_the_second = kRight) {
   std::vector<Lesson> lessons;
@@ -87,6 +87,14 @@ TEST(Learn, AWeightThatThePriorHasWrongIsLearned) {
     EXPECT_GT(lesson.iou(found.best), lesson.iou(kPrior) + 0.1);
     EXPECT_EQ(lesson.bound(), 1);
   }
+}
+
+TEST(Learn, WhatPhysicsSaysSpeaksForEmptyNeverSpeaksAgainstIt) {
+  std::vector<Lesson> lessons = two_buildings();
+  const Eigen::Vector3d against(-1, 1, 3);
+  const Evolved found = learned_weights({lessons, kPrior, against}, "", {0.3, 60, 12, 1});
+  EXPECT_GE(found.best[kOpen], 0);
+  EXPECT_GT(found.best[kRoom], 0);
 }
 
 TEST(Learn, WhatIsLearnedDependsOnNoThreads) {

@@ -48,10 +48,10 @@ class Lesson {
   bool has(Eigen::Index weight) const { return (features_.col(weight).array() != 0).any(); }
 
   /// What is wrong in the minimum cuts with the weights at the one and at the other end of graphcut's doubt
-  /// (and at least kOffset apart), as a share of the truth's volume: every cell by how sure the truth is of
-  /// it, walls and slabs between rooms by kWall times their volume; what the cuts decide differently counts
-  /// as solid to kUnknown. Cells without truth (ignored) count nowhere, rooms that nobody entered like all
-  /// others. Deterministic.
+  /// and beyond, the mean over kMargins, as a share of the truth's volume: every cell by how sure the truth
+  /// is of it, walls and slabs between rooms by kWall times their volume; what the cuts decide differently
+  /// counts as solid to kUnknown. Cells without truth (ignored) count nowhere, rooms that nobody entered like
+  /// all others. Deterministic.
   double loss(const Eigen::VectorXd& weights);
   /// Volume IoU with the truth of the labels that graphcut gives with these weights; unknown is no room.
   double iou(const Eigen::VectorXd& weights) const;
@@ -61,7 +61,8 @@ class Lesson {
  private:
   double iou_of(const std::vector<std::uint8_t>& label) const;
   void find_costs();
-  std::vector<std::uint8_t> cut_at(const Eigen::VectorXf& odds, const std::vector<double>& shift);
+  std::vector<std::uint8_t> cut_at(const Eigen::VectorXf& odds, const std::vector<double>& doubt,
+                                   double margin);
 
   LessonData data_;
   std::vector<std::string> names_;

@@ -20,6 +20,15 @@ Eigen::VectorXd scale_of(const Eigen::VectorXd& prior) {
   return Eigen::VectorXd::Ones(prior.size()) + 0.3 * prior.cwiseAbs();
 }
 
+/// The weights with the signs of the prior: what of a few buildings speaks against physics is chance.
+Eigen::VectorXd within_signs(const Eigen::VectorXd& weights, const Eigen::VectorXd& prior) {
+  Eigen::VectorXd within = weights;
+  for (Eigen::Index i = 1; i < within.size(); ++i) {
+    within[i] = within[i] * prior[i] < 0 ? 0 : within[i];
+  }
+  return within;
+}
+
 /// What weights cost on the lessons of some buildings.
 class Teacher {
  public:
@@ -117,8 +126,16 @@ Evolved learned_weights(const School& school, const std::string& left_out, const
   for (Eigen::Index i = 0; i < scale.size(); ++i) {
     scale[i] = teacher.knows(i) ? scale[i] : 0;
   }
-  return evolve([&](const std::vector<Eigen::VectorXd>& candidates) { return teacher.costs(candidates); },
-                school.prior, scale, params);
+  Evolved found = evolve(
+      [&](std::vector<Eigen::VectorXd> candidates) {
+        for (Eigen::VectorXd& candidate : candidates) {
+          candidate = within_signs(candidate, school.prior);
+        }
+        return teacher.costs(candidates);
+      },
+      school.prior, scale, params);
+  found.best = within_signs(found.best, school.prior);
+  return found;
 }
 
 }  // namespace roomcut::learn

@@ -24,9 +24,9 @@ struct School {
 
 /// The weights of least cost on all lessons but those of `left_out` ("" = none): the mean loss of the real
 /// buildings, each counting once however many lessons it has, and of made-up scenes above all what becomes
-/// worse; a little for the distance from the prior, which a weight keeps whose feature no lesson has.
-/// Parallel over the lessons; the same for any number of threads. Throws std::invalid_argument when no lesson
-/// is left.
+/// worse; a little for the distance from the prior, which a weight keeps whose feature no lesson has. What
+/// the prior says speaks for empty never speaks against it, and the other way round. Parallel over the
+/// lessons; the same for any number of threads. Throws std::invalid_argument when no lesson is left.
 Evolved learned_weights(const School& school, const std::string& left_out, const EvolutionParams& params);
 
 }  // namespace roomcut::learn
