@@ -11,7 +11,7 @@
 namespace roomcut::learn {
 namespace {
 
-constexpr double kPull = 2e-4;  // cost of weights one scale away from the prior
+constexpr double kPull = 1e-3;  // cost of weights one scale away from the prior
 constexpr double kMadeUp = 1;   // what a loss of synthetic scenes counts …
 constexpr double kWorse = 2;    // … and what goes beyond the loss of the weights that raycast has
 
