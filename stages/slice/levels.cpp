@@ -264,9 +264,10 @@ double height_of(const Slopes& slopes, double share) {
   return z;
 }
 
-/// Heights between which the bulk of the area lies, without 1 % at both ends.
+/// Heights between which the bulk of the area lies: without 1 % at both ends, which go on a little, half a bin.
 std::pair<double, double> bulk(const Slopes& slopes) {
-  return {height_of(slopes, 0.01), height_of(slopes, 0.99)};
+  const double on = 0.5 * kUprightHeight;
+  return {height_of(slopes, 0.01) - on, height_of(slopes, 0.99) + on};
 }
 
 /// How far area goes on beyond a level, given outwards per height bin [m]; 0 when it is too little to count.
