@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
   RaycastParams params;
   StageInfo info;
   info.name = "raycast";
-  info.revision = 11;
+  info.revision = 12;
   info.summary = "Gathers what speaks for each cell being empty or solid, by rays and by its own faces";
   info.inputs = {{"cells", "Cell complex"}, {"weights", "Weights of its faces"}};
   info.outputs = {{"terms-out", "Evidence and data term per cell"}};
