@@ -9,7 +9,7 @@ were found on.
 usage: leave_one_out.py BUILD; from the environment ONLY (which scenes), FOLDS (which buildings or families to leave out instead of all virtual
 buildings, `none`), GENERATIONS (of the search), OUT (where to write), JOBS (threads), ROOT (of the work folders, instead of work/accuracy). No
 scene is made or reconstructed; only `evaluate` runs where its scores are out of date. Writes what it found as learned.table beside OUT, in the
-form of stages/raycast/weights.table.
+form of stages/raycast/weights.table: the mean of what was learned with all and without each, drawn to the prior (left_out_table.py).
 """
 import json
 import os
@@ -143,7 +143,7 @@ def main():
     out = os.path.abspath(os.environ.get("OUT") or os.path.join(accuracy.ROOT, "left_out.json"))
     write(out, json.dumps(left_out_table.as_json(found, rows, generations), indent=1) + "\n")
     with open(SHIPPED, encoding="utf-8") as shipped:
-        write(os.path.join(os.path.dirname(out), "learned.table"), left_out_table.with_weights(shipped.read(), found["all"]["weights"]))
+        write(os.path.join(os.path.dirname(out), "learned.table"), left_out_table.with_weights(shipped.read(), left_out_table.robust_weights(found)))
 
 
 if __name__ == "__main__":

@@ -207,18 +207,19 @@ TEST(CastRays, TheUnseenFaceOfAWallIsImpliedByTheSeenOne) {
   EXPECT_GT(t.d_empty[scene.wall], t.d_solid[scene.wall]);
 }
 
-TEST(CastRays, ATerraceIsNoRoom) {
-  Cube cube;
-  FaceWeights weights = no_weights(cube.complex);
-  const std::size_t floor = cube.complex.level_face(4, 1);
-  const std::size_t facade = cube.complex.wall_face(edge_near(cube.complex, {0, 1.5}), 1);
-  weights.level_omega[floor] = weights.level_floor[floor] = 1;
-  weights.wall_omega[facade] = cube.weights.wall_omega[facade];
-  weights.wall_left[facade] = cube.weights.wall_left[facade];
-  weights.wall_right[facade] = cube.weights.wall_right[facade];
-  const DataTerms t = cast_rays(cube.complex, weights, {});
-  EXPECT_LT(t.beta[cube.room], 0.5);
-  EXPECT_GT(feature(t, "open")[cube.room], 0.3);
+TEST(CastRays, ATerraceBeforeARoomIsNoRoom) {
+  TwoRooms scene;  // of the eastern one only the floor and the wall to the other room are left
+  FaceWeights& weights = scene.weights;
+  for (const Vec2& middle : {Vec2(8.1, 2), Vec2(6, 0), Vec2(6, 4)}) {
+    const std::size_t w = scene.complex.wall_face(edge_near(scene.complex, middle), 1);
+    weights.wall_omega[w] = weights.wall_left[w] = weights.wall_right[w] = 0;
+  }
+  const std::size_t ceiling = scene.complex.level_face(8, 2);
+  weights.level_omega[ceiling] = weights.level_ceiling[ceiling] = 0;
+  const DataTerms t = cast_rays(scene.complex, weights, {});
+  EXPECT_LT(t.beta[scene.east], 0.5);
+  EXPECT_GT(t.beta[scene.west], 0.7);
+  EXPECT_GT(feature(t, "open")[scene.east], 0.3);
 }
 
 TEST(CastRays, ARoomNotEnteredButSeenThroughItsDoorIsEmpty) {
