@@ -69,9 +69,15 @@ class Command(unittest.TestCase):
         self.assertEqual(self.run_script("leave_one_out.py", FOLDS="thin", JOBS="1", OUT=other).returncode, 0)
         self.assertEqual(read(other), read(self.root, "left_out.json"))
 
-    def test_the_learned_table_is_a_weights_table(self):
+    def test_the_learned_table_is_the_mean_of_what_was_learned_drawn_to_the_prior(self):
         rows = [line.split("|") for line in read(self.root, "learned.table").splitlines() if "|" in line and not line.startswith("#")]
-        self.assertEqual({name.strip(): float(weight) for name, weight, _ in rows}, self.result["weights"]["all"])
+        written = {name.strip(): float(weight) for name, weight, _ in rows}
+        weights = self.result["weights"]
+        learned = [weights["all"], *weights["without"].values()]
+        self.assertEqual(set(written), set(weights["prior"]))
+        for name, weight in written.items():
+            expected = 0.75 * sum(one[name] for one in learned) / len(learned) + 0.25 * weights["prior"][name]
+            self.assertAlmostEqual(weight, expected, delta=0.00501, msg=name)
 
     def test_both_passes_are_lessons_and_a_first_that_is_gone_is_not(self):
         first, out = os.path.join(self.root, "closed_thin_1", "55_weigh_faces"), os.path.join(self.root, "other.json")
