@@ -26,7 +26,7 @@ import scenes
 HERE = os.path.dirname(os.path.abspath(__file__))
 PRIOR = os.path.join(HERE, "learn", "prior.table")
 SHIPPED = os.path.join(accuracy.SOURCE, "stages", "raycast", "weights.table")
-GENERATIONS = 200
+GENERATIONS = 80
 JOBS = int(os.environ.get("JOBS") or os.cpu_count())
 FILES = ("cells", "weights", "data_terms", "labels")
 PASSES = {"first": ("50_partition", "55_weigh_faces", "60_raycast", "70_graphcut"), "final": ("90_final",) * 4}
