@@ -52,7 +52,7 @@ help:
 	'make ablation                 what each addition to the paper is worth: all of them off, one at a time; ONLY=, SWITCHES=' \
 	'make accuracy-walls           errors of walls and heights beside their stated sigmas; ONLY="uniform_3mm …", OUT=file' \
 	'make accuracy-weights         after make accuracy: weights of the data term learned with every building left out; ONLY=, OUT=file,' \
-	'                              FOLDS="duplex …" which are left out (or none), GENERATIONS=200 of the search;' \
+	'                              FOLDS="duplex …" which are left out (or none), GENERATIONS=80 of the search;' \
 	'                              ROOT=folder of its work folders, here and in make accuracy, instead of work/accuracy/' \
 	'' \
 	'make fuzz                     every reader fed with damaged bytes, SECONDS=60 each (libFuzzer, clang); ONLY="slices edit …"' \
