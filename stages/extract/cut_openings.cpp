@@ -16,6 +16,8 @@ namespace roomcut::extract {
 
 namespace {
 
+constexpr double kBeside_m = 0.2;  // of a wall beside a doorway the cut may empty that much with it
+
 /// The level nearest to z when it is within kPlanSnap_m, else none.
 std::optional<std::size_t> level_at(const std::vector<double>& levels, double z) {
   const auto above = std::lower_bound(levels.begin(), levels.end(), z - kPlanSnap_m);
@@ -72,7 +74,7 @@ class Opener {
     if (!flood.side_a || !flood.side_b) {
       return "it does not reach through the wall";
     }
-    return fit(flood.faces, flood.sill, flood.head, flood.top, passage);
+    return fit(flood, passage);
   }
 
  private:
@@ -83,6 +85,7 @@ class Opener {
     std::set<std::int32_t> faces;
     std::vector<std::int32_t> open;  ///< whose edges have not been crossed
     bool side_a = false, side_b = false;
+    std::set<std::int32_t> beside = {};  ///< of the wall beside a jamb: what the cut emptied there, too
   };
 
   /// Goes on through an edge of a face inside the opening, or finds its border there. Says why it does not
@@ -101,8 +104,7 @@ class Opener {
       return all(other, flood.sill, flood.head, Label::kEmpty) ? "" : "there is no room on one side";
     }
     if (lies_on_jamb(opening, edge)) {
-      flood.top = std::min(flood.top, end_of_solid(other, flood.head));
-      return all(other, flood.sill, flood.head, Label::kSolid) ? "" : "the wall does not go on beside a jamb";
+      return wall_goes_on(opening, other, flood) ? "" : "the wall does not go on beside a jamb";
     }
     if (flood.faces.insert(other).second) {
       flood.open.push_back(other);
@@ -111,6 +113,35 @@ class Opener {
                  : "the wall's faces do not bound it";
     }
     return "";
+  }
+
+  /// Whether the wall is solid beyond a jamb, from a face there on: at once, or where the cut has emptied
+  /// more of it than the opening, within kBeside_m.
+  bool wall_goes_on(const Opening& opening, std::int32_t first, Flood& flood) const {
+    std::vector<std::int32_t> open{first};
+    while (!open.empty()) {
+      const std::int32_t face = open.back();
+      open.pop_back();
+      if (all(face, flood.sill, flood.head, Label::kSolid)) {
+        flood.top = std::min(flood.top, end_of_solid(face, flood.head));
+        continue;
+      }
+      if (!lies_beside(opening, face)) {
+        return false;
+      }
+      if (!flood.beside.insert(face).second) {
+        continue;
+      }
+      for (const std::int32_t e : complex_.edges_of(static_cast<std::size_t>(face))) {
+        const CellComplex::Edge& edge = complex_.edges[static_cast<std::size_t>(e)];
+        if (edge.line == flood.line_a || edge.line == flood.line_b || lies_on_jamb(opening, edge)) continue;
+        if (edge.across(face) < 0) {
+          return false;
+        }
+        open.push_back(edge.across(face));
+      }
+    }
+    return true;
   }
 
   bool all(std::int32_t face, std::size_t sill, std::size_t head, std::uint8_t label) const {
@@ -128,6 +159,17 @@ class Opener {
     const double t = along.dot(p - opening.jamb_a);
     const double off = (p - opening.jamb_a - t * along).norm();
     return t > 0 && t < opening.width() && off <= opening.thickness_m;
+  }
+
+  /// Whether a face lies in the wall and within kBeside_m of the opening.
+  bool lies_beside(const Opening& opening, std::int32_t face) const {
+    const Vec2 along = (opening.jamb_b - opening.jamb_a).normalized();
+    const FaceCorners corners = complex_.corners(static_cast<std::size_t>(face));
+    return std::all_of(corners.begin(), corners.end(), [&](const Vec2& p) {
+      const double t = along.dot(p - opening.jamb_a);
+      const double off = (p - opening.jamb_a - t * along).norm();
+      return off <= opening.thickness_m && std::max(-t, t - opening.width()) <= kBeside_m + kPlanSnap_m;
+    });
   }
 
   /// Both ends of the edge on the plane of one jamb: the jamb's own cut, or an edge that was there before.
@@ -149,17 +191,18 @@ class Opener {
     return layer;
   }
 
-  /// Empties the layers [sill, head) of the faces and closes [head, top).
-  std::string fit(const std::set<std::int32_t>& faces, std::size_t sill, std::size_t head, std::size_t top,
-                  Passage& passage) {
+  /// Empties the layers [sill, head) of the faces and closes [head, top), and of those beside them all.
+  std::string fit(const Flood& flood, Passage& passage) {
+    std::set<std::int32_t> faces = flood.faces;
+    faces.insert(flood.beside.begin(), flood.beside.end());
     std::vector<std::size_t> touched, flipped;
     for (const std::int32_t face : faces) {
-      for (std::size_t k = sill; k < top; ++k) {
+      for (std::size_t k = flood.sill; k < flood.top; ++k) {
         const std::size_t cell = complex_.cell(static_cast<std::size_t>(face), k);
         if (label_[cell] == Label::kEmpty && closed_[cell] == Label::kSolid) {
           return "it overlaps another opening";
         }
-        const bool opens = k < head;
+        const bool opens = k < flood.head && flood.faces.contains(face);
         touched.push_back(cell);
         if (opens) {
           passage.cells.push_back(cell);
@@ -172,7 +215,7 @@ class Opener {
       }
     }
     flip(flipped);
-    if (!is_manifold(faces, sill, top)) {
+    if (!is_manifold(faces, flood.sill, flood.top)) {
       flip(flipped);
       return "surfaces would touch in an edge or a corner";
     }

@@ -15,7 +15,7 @@ using namespace roomcut::extract;
 StageInfo info() {
   StageInfo stage;
   stage.name = "extract";
-  stage.revision = 6;
+  stage.revision = 7;
   stage.summary = "Turns the labelled cells into a closed model: model.ply, model.obj, summary.json";
   stage.inputs = {{"cells", "Cell decomposition"},
                   {"weights", "Evidence on the faces"},

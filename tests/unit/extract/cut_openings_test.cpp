@@ -157,6 +157,30 @@ TEST(CutOpenings, APartThatTheCutHadEmptiedIsClosedAboveTheHead) {
   EXPECT_EQ(found, (std::vector<int>{-1, 1, 0})) << "the door is no part of a room";
 }
 
+TEST(CutOpenings, WhatTheCutEmptiedBesideAJambIsClosedAsFarAsTwentyCentimetres) {
+  for (const double jamb : {2.3, 2.5}) {  // the wall is gone from y = 2.2 on
+    TwoRooms rooms;
+    const double closed = closed_m3(rooms);
+    for (std::size_t k = 0; k < rooms.complex.layers(); ++k) {
+      for (std::size_t f = 0; f < rooms.complex.faces(); ++f) {
+        const Vec2 p = rooms.complex.centroid(f);
+        const double z = 0.5 * (rooms.complex.levels[k] + rooms.complex.levels[k + 1]);
+        if (p.x() > 4 && p.x() < 4.2 && p.y() > 2.2 && p.y() < 3 && z > 0 && z < 2.5) {
+          rooms.labels.label[rooms.complex.cell(f, k)] = Label::kEmpty;
+        }
+      }
+    }
+    const Model model = extract_model(rooms.complex, rooms.labels, {rooms.door(jamb, 3.1, 2.0)}, {});
+    EXPECT_EQ(model.fault, "");
+    ASSERT_EQ(model.openings.size(), jamb < 2.4 ? 1U : 0U);
+    EXPECT_EQ(model.rooms.size(), jamb < 2.4 ? 2U : 1U);
+    if (jamb < 2.4) {
+      EXPECT_NEAR(model.empty_m3, closed + 0.8 * 2.0 * 0.2, 1e-9);
+      EXPECT_NEAR(model.openings[0].volume_m3, model.empty_m3 - closed_m3(rooms), 1e-9);
+    }
+  }
+}
+
 TEST(CutOpenings, WhatDoesNotFitTheLabelsStaysClosedAndSaysWhy) {
   const TwoRooms rooms;
   Opening outside = rooms.door(1.5, 2.5, 2.0);
