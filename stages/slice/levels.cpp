@@ -264,7 +264,8 @@ double height_of(const Slopes& slopes, double share) {
   return z;
 }
 
-/// Heights between which the bulk of the area lies: without 1 % at both ends, which go on a little, half a bin.
+/// Heights between which the bulk of the area lies: without 1 % at both ends, which go on a little, half a
+/// bin.
 std::pair<double, double> bulk(const Slopes& slopes) {
   const double on = 0.5 * kUprightHeight;
   return {height_of(slopes, 0.01) - on, height_of(slopes, 0.99) + on};
