@@ -16,10 +16,13 @@ void body(StageRun& run, const RaycastParams& params) {
 
   double empty = 0;
   double unclear = 0;
-  for (std::size_t c = 0; c < terms.beta.size(); ++c) {
-    const double volume = cells.complex.volume(c);
-    empty += terms.beta[c] > 0.5F ? volume : 0;
-    unclear += terms.beta[c] > 0.3F && terms.beta[c] < 0.7F ? volume : 0;
+  for (std::size_t f = 0; f < cells.complex.faces(); ++f) {
+    for (std::size_t k = 0; k < cells.complex.layers(); ++k) {
+      const double volume = cells.complex.area(f) * cells.complex.height(k);
+      const float beta = terms.beta[cells.complex.cell(f, k)];
+      empty += beta > 0.5F ? volume : 0;
+      unclear += beta > 0.3F && beta < 0.7F ? volume : 0;
+    }
   }
   run.count("cells", static_cast<double>(terms.beta.size()));
   run.count("rays", static_cast<double>(terms.beta.size()) * params.rays);

@@ -80,9 +80,7 @@ struct Piece {
 };
 
 Piece look_at(const CellComplex& complex, const FaceWeights& weights, const CellEvidence& evidence,
-              std::size_t cell, const LinePair& lines) {
-  const std::size_t face = complex.face_of(cell);
-  const std::size_t layer = complex.layer_of(cell);
+              std::size_t face, std::size_t layer, const LinePair& lines) {
   const Side a = side_of(complex, weights, face, layer, lines.first);
   const Side b = side_of(complex, weights, face, layer, lines.second);
   const double open = std::max(evidence.upright.fronts, evidence.front_m2 / evidence.total_m2);
@@ -100,19 +98,21 @@ std::vector<double> walls_that_go_on(const CellComplex& complex, const FaceWeigh
   std::vector<LinePair> strip(complex.faces());
   std::map<LinePair, Seen> seen;
   std::vector<Piece> piece(complex.cells(), Piece{0, 0, 0});
-  for (std::size_t c = 0; c < complex.cells(); ++c) {
-    const std::size_t face = complex.face_of(c);
-    if (complex.layer_of(c) == 0) strip[face] = lines_around(complex, face);
-    if (strip[face].first < 0) continue;
-    piece[c] = look_at(complex, weights, evidence[c], c, strip[face]);
-    Seen& of_strip = seen[strip[face]];
-    of_strip.wall += piece[c].area * piece[c].wall;
-    of_strip.open += piece[c].area * piece[c].open;
+  for (std::size_t f = 0; f < complex.faces(); ++f) {
+    strip[f] = lines_around(complex, f);
+    for (std::size_t k = 0; strip[f].first >= 0 && k < complex.layers(); ++k) {
+      const std::size_t c = complex.cell(f, k);
+      piece[c] = look_at(complex, weights, evidence[c], f, k, strip[f]);
+      Seen& of_strip = seen[strip[f]];
+      of_strip.wall += piece[c].area * piece[c].wall;
+      of_strip.open += piece[c].area * piece[c].open;
+    }
   }
   std::vector<double> goes_on(complex.cells(), 0);
-  for (std::size_t c = 0; c < complex.cells(); ++c) {
-    if (const LinePair& lines = strip[complex.face_of(c)]; lines.first >= 0) {
-      const Seen& s = seen[lines];
+  for (std::size_t f = 0; f < complex.faces(); ++f) {
+    for (std::size_t k = 0; strip[f].first >= 0 && k < complex.layers(); ++k) {
+      const std::size_t c = complex.cell(f, k);
+      const Seen& s = seen[strip[f]];
       goes_on[c] = s.wall / (s.wall + s.open + kStray_m2) * (1 - std::max(piece[c].wall, piece[c].open));
     }
   }

@@ -65,6 +65,7 @@ Evolved learned(std::vector<Lesson>& lessons, const std::string& left_out = "", 
 TEST(Evolution, FindsTheBottomOfANarrowValleyWhereverItStarts) {
   const auto costs = [](const std::vector<Eigen::VectorXd>& candidates) {
     std::vector<double> cost;
+    cost.reserve(candidates.size());
     for (const Eigen::VectorXd& v : candidates) {
       cost.push_back(std::pow(v[0] - 1, 2) + 1000 * std::pow(v[1] + v[0], 2) + std::pow(v[2] - 3, 2));
     }
