@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "common/cells/face_locator.h"
 #include "common/cells/interfaces.h"
@@ -153,21 +154,24 @@ class Opener {
     return true;
   }
 
-  /// Whether p lies between the jambs and not further from their middle line than the wall may be thick.
-  static bool inside(const Opening& opening, const Vec2& p) {
+  /// How far p lies along the opening from its first jamb, and how far from the middle of the wall.
+  static std::pair<double, double> place_in_wall(const Opening& opening, const Vec2& p) {
     const Vec2 along = (opening.jamb_b - opening.jamb_a).normalized();
     const double t = along.dot(p - opening.jamb_a);
-    const double off = (p - opening.jamb_a - t * along).norm();
+    return {t, (p - opening.jamb_a - t * along).norm()};
+  }
+
+  /// Whether p lies between the jambs and not further from their middle line than the wall may be thick.
+  static bool inside(const Opening& opening, const Vec2& p) {
+    const auto [t, off] = place_in_wall(opening, p);
     return t > 0 && t < opening.width() && off <= opening.thickness_m;
   }
 
   /// Whether a face lies in the wall and within kBeside_m of the opening.
   bool lies_beside(const Opening& opening, std::int32_t face) const {
-    const Vec2 along = (opening.jamb_b - opening.jamb_a).normalized();
     const FaceCorners corners = complex_.corners(static_cast<std::size_t>(face));
     return std::all_of(corners.begin(), corners.end(), [&](const Vec2& p) {
-      const double t = along.dot(p - opening.jamb_a);
-      const double off = (p - opening.jamb_a - t * along).norm();
+      const auto [t, off] = place_in_wall(opening, p);
       return off <= opening.thickness_m && std::max(-t, t - opening.width()) <= kBeside_m + kPlanSnap_m;
     });
   }

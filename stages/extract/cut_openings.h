@@ -29,11 +29,11 @@ struct OpenableComplex {
 /// Refines the complex so that every opening is a set of cells: its jambs cut the plan between the wall's two
 /// faces and nowhere else, its head (and sill) become levels. Labels are inherited, so the surface stays the
 /// same; then the openings are tried one after the other and accepted where solid cells lie beyond the jambs
-/// and empty ones beyond the two faces. Cells of an opening, above it as far as the wall goes on beside
-/// both jambs, or up to 0.2 m beside a jamb, that the cut had emptied already become solid in the closed
-/// labels. The surface with this and
-/// all accepted ones opened must be a 2-manifold. So the result has a watertight surface whichever openings
-/// are given. Levels multiply cells, but no ray and no cut sees them: only the surface's extraction.
+/// and empty ones beyond the two faces. What the cut had emptied already becomes solid in the closed labels:
+/// cells of an opening, those above it as far as the wall goes on beside both jambs, and those up to 0.2 m
+/// beside a jamb. The surface with this and all accepted ones opened must be a 2-manifold. So the result has
+/// a watertight surface whichever openings are given. Levels multiply cells, but no ray and no cut sees them:
+/// only the surface's extraction.
 OpenableComplex cut_openings(const CellComplex& complex, const Labels& labels,
                              const std::vector<Opening>& openings);
 

@@ -271,7 +271,7 @@ TEST(WeighFaces, AFloorThatGoesThroughALineIsNoFootOfAWall) {
 TEST(WeighFaces, WallPointsOfAnotherDirectionDoNotCount) {
   const CellComplex complex = grid_complex({-1, 0, 4, 5}, {-1, 0, 4, 5}, {0, 2.6});
   SampledCloud cloud(2000, 0.004);
-  cloud.wall({-0.03, 1}, {0.03, 1}, 0, 2.6);  // a stub across the line x = 0
+  cloud.wall({-0.03, 1}, {0.03, 1}, 0, 2.6);  // a short wall across the line x = 0
   const FaceWeights w = weigh(complex, cloud);
   EXPECT_EQ(w.wall_points[complex.wall_face(edge_near(complex, {0, 2}), 0)], 0U);
 }
