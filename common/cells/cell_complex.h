@@ -12,6 +12,7 @@
 #include "common/artefact/provenance.h"
 #include "common/cells/surface_decision.h"
 #include "common/geometry/line2.h"
+#include "common/geometry/sloped_plane.h"
 
 namespace roomcut {
 
@@ -97,13 +98,26 @@ struct CellComplex {
     /// the same (one subdivision for all layers), but weigh_faces gives its faces no evidence in other
     /// layers.
     std::vector<std::int32_t> layers;
+    /// -1 = a wall line. Else a crease, which carries no wall: where this one of `planes` meets another plane
+    /// or a level or, with `layers`, where it passes from one step to the next: they are the riser's.
+    std::int32_t plane = -1;
 
     bool carries(std::size_t layer) const {
-      return layers.empty() ||
+      return plane < 0 && (layers.empty() || std::binary_search(layers.begin(), layers.end(),
+                                                                static_cast<std::int32_t>(layer)));
+    }
+    /// Whether the stairs that stand for a sloped plane rise here in this layer.
+    bool rises(std::size_t layer) const {
+      return plane >= 0 &&
              std::binary_search(layers.begin(), layers.end(), static_cast<std::int32_t>(layer));
     }
   };
   std::vector<Line> lines;
+
+  /// Sloped floors and ceilings. In the cells they are stairs, one step where the plane is nearest to a level
+  /// of `steps`; what follows the cut puts the plane itself in their place (LevelSurfaces).
+  std::vector<SlopedPlane> planes;
+  std::vector<std::uint8_t> steps;  ///< per level: 1 = stands for sloped planes alone
 
   std::size_t faces() const { return face_offset.empty() ? 0 : face_offset.size() - 1; }
   std::size_t layers() const { return levels.empty() ? 0 : levels.size() - 1; }

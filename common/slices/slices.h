@@ -6,6 +6,7 @@
 
 #include "common/artefact/provenance.h"
 #include "common/geometry/line2.h"
+#include "common/geometry/sloped_plane.h"
 
 namespace roomcut {
 
@@ -49,6 +50,7 @@ struct Slices {
   VerticalHistogram histogram;
   std::vector<Level> levels;               ///< ascending, at least 2
   std::vector<OccupancyGrid> wall_slices;  ///< levels.size() - 1: slice k lies between levels k and k+1
+  std::vector<SlopedPlane> planes;         ///< sloped floors and ceilings, largest first
 };
 
 }  // namespace roomcut
