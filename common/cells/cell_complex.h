@@ -113,6 +113,10 @@ struct CellComplex {
     }
   };
   std::vector<Line> lines;
+  /// Whether the edge lies on a wall line, neither on a crease nor on a side of the bounding box.
+  bool on_wall_line(const Edge& edge) const {
+    return edge.line >= 0 && lines[static_cast<std::size_t>(edge.line)].plane < 0;
+  }
 
   /// Sloped floors and ceilings. In the cells they are stairs, one step where the plane is nearest to a level
   /// of `steps`; what follows the cut puts the plane itself in their place (LevelSurfaces).

@@ -10,7 +10,7 @@
 namespace roomcut {
 
 /// How stairs stand for sloped planes: which level a height of a plane belongs to. Between two neighbouring
-/// real levels that is the nearest of the steps there or, where there are none, the nearer of the two.
+/// real levels that is the nearest of the steps there or, where there are none, the lower of the two.
 class Stairs {
  public:
   /// `step`: per level, whether it stands for sloped planes alone (CellComplex::steps). Both must outlive it.
@@ -23,8 +23,8 @@ class Stairs {
     if (above == 0) return 0;
     if (above == levels_.size()) return above - 1;
     const std::size_t below = above - 1;
-    if (is_step(below) != is_step(above)) return is_step(below) ? below : above;
-    return z - levels_[below] <= levels_[above] - z ? below : above;
+    if (!has_riser(below)) return is_step(above) ? above : below;
+    return z <= riser(below) ? below : above;
   }
 
   /// Whether both levels of the layer are steps; level_of() then passes from one to the other at riser().
