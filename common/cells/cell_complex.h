@@ -108,8 +108,7 @@ struct CellComplex {
     }
     /// Whether the stairs that stand for a sloped plane rise here in this layer.
     bool rises(std::size_t layer) const {
-      return plane >= 0 &&
-             std::binary_search(layers.begin(), layers.end(), static_cast<std::int32_t>(layer));
+      return plane >= 0 && std::binary_search(layers.begin(), layers.end(), static_cast<std::int32_t>(layer));
     }
   };
   std::vector<Line> lines;

@@ -18,8 +18,8 @@ class Stairs {
       : levels_(levels), step_(step) {}
 
   std::size_t level_of(double z) const {
-    const auto above = static_cast<std::size_t>(std::lower_bound(levels_.begin(), levels_.end(), z) -
-                                                levels_.begin());
+    const auto above =
+        static_cast<std::size_t>(std::lower_bound(levels_.begin(), levels_.end(), z) - levels_.begin());
     if (above == 0) return 0;
     if (above == levels_.size()) return above - 1;
     const std::size_t below = above - 1;

@@ -51,8 +51,8 @@ void write_planes(H5Writer& file, const std::vector<SlopedPlane>& planes) {
 std::vector<SlopedPlane> read_planes(const H5Reader& file) {
   if (!file.exists("planes/equation")) return {};
   using limits::kFarthest_m;
-  const auto equation =
-      read_in_range<double>(file, "planes/equation", {0, 3}, -kSteepest * kFarthest_m, kSteepest * kFarthest_m);
+  const auto equation = read_in_range<double>(file, "planes/equation", {0, 3}, -kSteepest * kFarthest_m,
+                                              kSteepest * kFarthest_m);
   const std::size_t n = equation.size() / 3;
   const auto area = read_in_range<double>(file, "planes/area", {n}, 0, limits::kLargestArea_m2);
   const auto rms = read_in_range<double>(file, "planes/rms", {n}, 0, limits::kLargestEdge_m);

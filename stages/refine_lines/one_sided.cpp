@@ -138,7 +138,8 @@ double usual_thickness(const CellComplex& complex, const std::vector<std::uint8_
                              complex.vertices[static_cast<std::size_t>(e.v1)]);
       walk_beside(complex, edge, !left, kThickest, [&](std::size_t other, bool from_left) {
         const CellComplex::Edge& o = complex.edges[other];
-        if (thickness == 0 && complex.on_wall_line(o) && is_empty(complex, label, from_left ? o.right : o.left, layer)) {
+        if (thickness == 0 && complex.on_wall_line(o) &&
+            is_empty(complex, label, from_left ? o.right : o.left, layer)) {
           thickness = std::abs(complex.lines[static_cast<std::size_t>(o.line)].line.distance(at));
         }
       });

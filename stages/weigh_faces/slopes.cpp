@@ -13,11 +13,11 @@ void cover_risers(const CellComplex& complex, FaceWeights& weights) {
     const SlopedPlane& plane = complex.planes[static_cast<std::size_t>(crease.plane)];
     const auto left = static_cast<std::size_t>(edge.left);
     const auto right = static_cast<std::size_t>(edge.right);
-    const bool uphill_left =
-        plane.height(complex.centroid(left)) > plane.height(complex.centroid(right));
+    const bool uphill_left = plane.height(complex.centroid(left)) > plane.height(complex.centroid(right));
     for (const std::int32_t layer : crease.layers) {
       const auto k = static_cast<std::size_t>(layer);
-      // The upper tread lies uphill. Beneath a ceiling the space uphill is the empty one, over a floor the other.
+      // The upper tread lies uphill. Beneath a ceiling the space uphill is the empty one, over a floor the
+      // other.
       const float omega = 0.5F * (weights.level_omega[complex.level_face(uphill_left ? left : right, k + 1)] +
                                   weights.level_omega[complex.level_face(uphill_left ? right : left, k)]);
       const std::size_t w = complex.wall_face(e, k);

@@ -65,8 +65,8 @@ const Tolerances& FaceWeigher::tolerances() const {
 }
 
 void FaceWeigher::add(const CloudTile& tile) {
-  PointSorter sorter(state_->complex, state_->tolerances, state_->heights, state_->slopes,
-                     state_->lines, state_->walls, state_->levels, state_->inside);
+  PointSorter sorter(state_->complex, state_->tolerances, state_->heights, state_->slopes, state_->lines,
+                     state_->walls, state_->levels, state_->inside);
   for (std::size_t i = 0; i < tile.size(); ++i) {
     sorter.add({tile.x[i], tile.y[i], tile.z[i]}, static_cast<SurfaceClass>(tile.surface[i]),
                tile.azimuth[i]);

@@ -45,14 +45,14 @@ Picture draw_partition(const std::string& stage, const CellComplex& complex) {
   for (std::size_t i = 0; i < complex.lines.size(); ++i) {
     const CellComplex::Line& line = complex.lines[i];
     const bool wall = line.plane < 0;
-    svg.line(line.line.at(line.t0), line.line.at(line.t1), wall ? categorical_colour(static_cast<int>(i)) : kCrease,
-             wall ? 2 : 1, line.wall_id);
+    svg.line(line.line.at(line.t0), line.line.at(line.t1),
+             wall ? categorical_colour(static_cast<int>(i)) : kCrease, wall ? 2 : 1, line.wall_id);
   }
-  return {
-      stage, stage + ".svg", "The plan cut into " + std::to_string(complex.faces()) + " convex faces",
-      "Grey: edges of the faces, the same in every layer. Coloured: the wall lines where points carry them. Brown, "
-      "thin: creases of sloped planes.",
-      svg.str()};
+  return {stage, stage + ".svg", "The plan cut into " + std::to_string(complex.faces()) + " convex faces",
+          "Grey: edges of the faces, the same in every layer. Coloured: the wall lines where points carry "
+          "them. Brown, "
+          "thin: creases of sloped planes.",
+          svg.str()};
 }
 
 Picture draw_weights(const std::string& stage, const CellComplex& complex, const FaceWeights& weights,

@@ -36,7 +36,8 @@ std::vector<Vec2> inner_corners(const CellComplex& complex, std::size_t face) {
 WallLines box(double x, double y) {
   WallLines lines;
   lines.bbox_max = {x, y};
-  for (const auto& [a, b] : {std::pair<Vec2, Vec2>{{0, 0}, {x, 0}}, {{0, y}, {x, y}}, {{0, 0}, {0, y}}, {{x, 0}, {x, y}}}) {
+  for (const auto& [a, b] :
+       {std::pair<Vec2, Vec2>{{0, 0}, {x, 0}}, {{0, y}, {x, y}}, {{0, 0}, {0, y}}, {{x, 0}, {x, y}}}) {
     WallLine wall;
     wall.id = "w" + std::to_string(lines.lines.size());
     wall.a = a;
@@ -114,7 +115,8 @@ TEST(Creases, OrderTheSurfacesOfEveryColumn) {
     for (int i = 0; i < 3; ++i) {
       const double pitch = 0.02 + 1.2 * unit(draw), azimuth = 6.28 * unit(draw);
       const Vec2 middle = low + Vec2(unit(draw) * size.x(), unit(draw) * size.y());
-      slopes.planes.push_back(plane(pitch * Vec2(std::cos(azimuth), std::sin(azimuth)), middle, 5 * unit(draw),
+      slopes.planes.push_back(plane(pitch * Vec2(std::cos(azimuth), std::sin(azimuth)), middle,
+                                    5 * unit(draw),
                                     rectangle(low.x(), low.y(), low.x() + size.x(), low.y() + size.y())));
     }
     const CellComplex complex = partition(lines, levels, {}, slopes).complex;
