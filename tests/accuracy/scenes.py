@@ -46,9 +46,7 @@ VIRTUAL = ("bimwhale_large", "bodo_school", "duplex", "fzk_haus", "hom", "instit
 
 # Scenes in several poses: all kinds of angles, storeys, scanners.
 MOVED = (("uniform", "house", 1), ("uniform", "oblique", 2), ("tripod", "multi_storey", 3))
-MOVED_# One room under a monopitch roof of every pitch; only when asked for, by `slopes` or by name.
-SLOPES_DEG = range(1, 61)
-VIRTUAL = ("virtual_duplex", "virtual_niedriha")
+MOVED_VIRTUAL = ("virtual_duplex", "virtual_niedriha")
 # Cases that are a scene of this repository, or have its truth.
 CASES_OF_OWN_SCENES = {"lost_raised_floor": {"file": "paper_two_storeys", "points": 400000}, "sparse_12_per_m2": {"file": "paper_two_storeys", "points": 15000}}
 OWN_SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "data", "scenes")
