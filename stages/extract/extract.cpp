@@ -2,47 +2,17 @@
 #include "stages/extract/extract.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
+#include <utility>
 
 #include "common/cells/interfaces.h"
 #include "common/errors/codes.h"
-#include "stages/extract/cell_surface.h"
+#include "stages/extract/build_surface.h"
+#include "stages/extract/carry_surfaces.h"
 #include "stages/extract/cut_openings.h"
 
 namespace roomcut::extract {
 
 namespace {
-
-SurfaceAreas measure_areas(const TriangleMesh& mesh) {
-  SurfaceAreas areas;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto kind = static_cast<SurfaceKind>(mesh.kind[t]);
-    double& sum = kind == SurfaceKind::kFloor     ? areas.floor
-                  : kind == SurfaceKind::kCeiling ? areas.ceiling
-                                                  : areas.wall;
-    sum += triangle_area(mesh, t);
-  }
-  return areas;
-}
-
-/// The facets enclose just the empty cells. Merged, they do but for the vertices of one wall, which lie
-/// within kPlanSnap_m of its line, not on it: which of them a triangle joins moves its surface by less than
-/// that.
-std::string volume_fault(double mesh_m3, double facets_m3, const Model& model) {
-  constexpr double kRounding = 1e-9;
-  const double rounding = kRounding * model.empty_m3;
-  const double snap = kPlanSnap_m * model.areas.wall;
-  if (std::abs(facets_m3 - model.empty_m3) <= rounding && std::abs(mesh_m3 - facets_m3) <= rounding + snap) {
-    return "";
-  }
-  std::array<char, 160> text;
-  std::snprintf(text.data(), text.size(),
-                "its volume is %.9f m3, that of its facets %.9f m3, but the empty cells have %.9f m3",
-                mesh_m3, facets_m3, model.empty_m3);
-  return text.data();
-}
 
 void measure_unobserved(const CellComplex& complex, const Labels& labels, Model& model) {
   for (std::size_t face = 0; face < complex.faces(); ++face) {
@@ -92,45 +62,57 @@ CellRooms rooms_of_whole_cells(const Labels& labels, const OpenableComplex& cut,
   return out;
 }
 
+/// The plan's area of some level faces [m^2].
+double area_of(const CellComplex& complex, const std::vector<std::size_t>& level_faces) {
+  double area = 0;
+  for (const std::size_t face : level_faces) {
+    area += complex.area(complex.face_of_level(face));
+  }
+  return area;
+}
+
+void take(const CellComplex& complex, BuiltSurface built, Model& model) {
+  model.surface = std::move(built.merged);
+  model.areas = built.areas;
+  model.empty_m3 = built.empty_m3;
+  model.check = built.check;
+  model.fault = std::move(built.fault);
+  model.put_back_m2 = area_of(complex, built.put_back);
+}
+
 }  // namespace
 
 Model extract_model(const CellComplex& complex, const Labels& labels, const std::vector<Opening>& openings,
-                    const ExtractParams& params) {
-  if (!(empty_volume(complex, labels.label) > 0)) {
+                    const ExtractParams& params, const LevelSurfaces& surfaces) {
+  if (std::none_of(labels.label.begin(), labels.label.end(),
+                   [](std::uint8_t l) { return l == Label::kEmpty; })) {
     throw StageError(errors::kEmptyModel, "", "every cell is solid: there is no room to model",
                      "look at the labels' evidence; a smaller graphcut.mu_m lets smaller spaces survive");
   }
   Labels model_labels = labels;
   model_labels.label = labels_of_model(labels.label);
-  // Storeys and rooms are those of the closed walls; then the openings become empty.
+  // Storeys and rooms are those of the closed walls; the surface is that with the openings empty.
   OpenableComplex cut = cut_openings(complex, model_labels, openings);
+  LevelSurfaces carried = carry_surfaces(complex, surfaces, cut);
+  const EndHeights heights(cut.complex, carried);
   Storeys storeys = find_storeys(cut.complex, cut.labels.label, params.storeys);
   Model model;
   model.refused = std::move(cut.refused);
-  model.storeys = measure_storeys(cut.complex, cut.labels, storeys);
-  const Rooms rooms = find_rooms(cut.complex, cut.labels, storeys);
+  Labels opened = cut.labels;
+  open_passages(cut.passages, opened);
+  Storeys of_all = storeys;
+  for (const Passage& passage : cut.passages) {
+    for (const std::size_t cell : passage.cells) {
+      of_all.of_cell[cell] = storeys.of_cell[passage.cell_a];
+    }
+  }
+  take(cut.complex, build_surface(cut.complex, opened.label, of_all, carried), model);
+  model.storeys = measure_storeys(heights, cut.labels, storeys);
+  const Rooms rooms = find_rooms(heights, cut.labels, storeys);
   model.openings = list_openings(cut.passages, rooms, storeys);
   model.rooms = rooms.spaces;
-  open_passages(cut.passages, cut.labels);
-  for (std::size_t i = 0; i < cut.passages.size(); ++i) {
-    for (const std::size_t cell : cut.passages[i].cells) {
-      storeys.of_cell[cell] = static_cast<std::int16_t>(model.openings[i].storey);
-    }
-  }
-  model.cell_rooms = rooms_of_whole_cells(model_labels, cut, storeys, rooms);
-  model.empty_m3 = empty_volume(cut.complex, cut.labels.label);
-  const FacetSurface facets = surface_of_labels(cut.complex, cut.labels.label, storeys);
-  model.surface = merge_facets(facets);
-  model.areas = measure_areas(model.surface.mesh);
-  measure_unobserved(cut.complex, cut.labels, model);
-  model.check = check_mesh(model.surface.mesh);
-  model.fault = model.surface.fault;
-  for (const std::string& more :
-       {describe_faults(model.check), volume_fault(model.check.volume_m3, volume(facets), model)}) {
-    if (!more.empty()) {
-      model.fault += (model.fault.empty() ? "" : "; ") + more;
-    }
-  }
+  model.cell_rooms = rooms_of_whole_cells(model_labels, cut, of_all, rooms);
+  measure_unobserved(cut.complex, opened, model);
   return model;
 }
 

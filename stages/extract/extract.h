@@ -6,20 +6,17 @@
 #include <vector>
 
 #include "common/cells/cell_complex.h"
+#include "common/cells/level_surfaces.h"
 #include "common/mesh/facet_surface.h"
 #include "common/mesh/mesh_check.h"
 #include "common/openings/opening.h"
+#include "stages/extract/build_surface.h"
 #include "stages/extract/params.h"
 #include "stages/extract/rooms.h"
 #include "stages/extract/storeys.h"
 #include "stages/extract/unknown_spaces.h"
 
 namespace roomcut::extract {
-
-/// Areas of the model's surface by kind [m^2].
-struct SurfaceAreas {
-  double floor = 0, ceiling = 0, wall = 0;
-};
 
 /// An opening of the model and the two rooms that it joins.
 struct ModelOpening {
@@ -39,7 +36,9 @@ struct Model {
   std::vector<ModelOpening> openings;
   std::vector<std::string> refused;  ///< "o0007: why": openings that do not fit the labels
   SurfaceAreas areas;
-  double empty_m3 = 0;  ///< sum of the empty cells
+  double empty_m3 = 0;     ///< sum of the empty space between floors and ceilings
+  double put_back_m2 = 0;  ///< of floors and ceilings that lie at their levels, since the model would touch
+                           ///< itself at their surfaces
   double unobserved_empty_m3 = 0;
   double unobserved_solid_m3 = 0;
   MeshCheck check;
@@ -47,11 +46,12 @@ struct Model {
       fault;  ///< "" or why the mesh must not be used (F1.7: closed, oriented, no self-intersection, volume)
 };
 
-/// Extracts the model, with the given openings cut into its walls. Equal inputs give equal bytes. With wrong
+/// Extracts the model, with the given openings cut into its walls and its floors and ceilings at `surfaces`
+/// (none: at their levels). Equal inputs give equal bytes. With wrong
 /// labels (surfaces that touch in an edge or a vertex) the fault is set and the mesh is what could be made.
 /// Throws StageError(kEmptyModel) when no cell is empty.
 Model extract_model(const CellComplex& complex, const Labels& labels, const std::vector<Opening>& openings,
-                    const ExtractParams& params);
+                    const ExtractParams& params, const LevelSurfaces& surfaces = {});
 
 /// Lists the unknown spaces of the labels that the model was extracted from, in model.unknown_spaces and
 /// model.cell_rooms.

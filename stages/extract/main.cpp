@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+#include <cstdio>
+
 #include "common/cells/cells_io.h"
+#include "common/cells/surfaces_io.h"
 #include "common/cli/run_stage.h"
 #include "common/errors/codes.h"
 #include "common/openings/openings_io.h"
@@ -15,12 +19,13 @@ using namespace roomcut::extract;
 StageInfo info() {
   StageInfo stage;
   stage.name = "extract";
-  stage.revision = 7;
+  stage.revision = 8;
   stage.summary = "Turns the labelled cells into a closed model: model.ply, model.obj, summary.json";
   stage.inputs = {{"cells", "Cell decomposition"},
                   {"weights", "Evidence on the faces"},
                   {"terms", "Evidence and data term per cell"},
                   {"labels", "Empty and solid cells"},
+                  {"surfaces", "True floors and ceilings; absent: all lie at their levels", true},
                   {"openings", "Doors and passages; absent: every wall stays closed", true}};
   stage.outputs = {{"ply", "Triangles, with kind, storey and region"},
                    {"obj", "Polygons, grouped per storey and kind"},
@@ -43,7 +48,11 @@ void body(StageRun& run, const ExtractParams& params) {
   if (run.has_input("openings")) {
     openings = read_openings(run.input("openings"), cells.payload_sha256).content.openings;
   }
-  Model model = extract_model(cells.complex, labels, openings, params);
+  LevelSurfaces surfaces;
+  if (run.has_input("surfaces")) {
+    surfaces = read_surfaces(run.input("surfaces"), cells);
+  }
+  Model model = extract_model(cells.complex, labels, openings, params, surfaces);
   const std::filesystem::path rejected = rejected_path(run.output("ply"));
   if (!model.fault.empty()) {
     write_model_ply(rejected, model, cells.complex.frame);
@@ -63,6 +72,15 @@ void body(StageRun& run, const ExtractParams& params) {
   run.count("openings", static_cast<double>(model.openings.size()));
   for (const std::string& refused : model.refused) {
     run.warn("opening " + refused + "; it stays closed");
+  }
+  if (model.put_back_m2 > 0) {
+    std::array<char, 160> text;
+    std::snprintf(
+        text.data(), text.size(),
+        "%.3f m2 of floors and ceilings lie at their levels: at their true surfaces the model would "
+        "touch itself",
+        model.put_back_m2);
+    run.warn(text.data());
   }
   run.count("volume", model.empty_m3, "m^3");
   run.count("triangles", static_cast<double>(model.surface.mesh.triangles.size()));

@@ -6,6 +6,7 @@
 
 #include "common/cells/cell_complex.h"
 #include "common/cells/cell_pieces.h"
+#include "stages/extract/columns.h"
 #include "stages/extract/storeys.h"
 
 namespace roomcut::extract {
@@ -13,9 +14,10 @@ namespace roomcut::extract {
 /// What is known of a space: a room, or all rooms of a storey together. Local metres.
 struct Space {
   int storey = 0;
-  double floor_z = 0;    ///< height of the largest part of the floor [m]
-  double ceiling_z = 0;  ///< height of the largest part of the ceiling [m]
-  double area_m2 = 0;    ///< of its plan
+  double floor_z = 0;    ///< height of the largest part of the floor, at its middle [m]
+  double ceiling_z = 0;  ///< height of the largest part of the ceiling, at its middle [m]
+  double lowest_ceiling_z = 0, highest_ceiling_z = 0;  ///< of all parts [m]
+  double area_m2 = 0;                                  ///< of its plan
   double volume_m3 = 0;
   double unobserved_m3 = 0;  ///< volume of its cells with too little evidence (Labels::unobserved)
   Vec2 centre{0, 0};         ///< of its plan's area; may lie outside an L
@@ -23,7 +25,7 @@ struct Space {
 };
 
 /// What the pieces measure, whose storeys are not set yet.
-std::vector<Space> measure_pieces(const CellComplex& complex, const Labels& labels, const CellPieces& pieces);
+std::vector<Space> measure_pieces(const EndHeights& heights, const Labels& labels, const CellPieces& pieces);
 
 struct Rooms {
   std::vector<Space> spaces;          ///< by storey, then by volume, largest first
@@ -32,9 +34,9 @@ struct Rooms {
 
 /// The connected pieces of empty space within a storey (through faces, not edges). On labels in which doors
 /// are still closed rooms stay apart; rooms joined by a gap of the walls themselves are one piece.
-Rooms find_rooms(const CellComplex& complex, const Labels& labels, const Storeys& storeys);
+Rooms find_rooms(const EndHeights& heights, const Labels& labels, const Storeys& storeys);
 
 /// Each storey as a whole.
-std::vector<Space> measure_storeys(const CellComplex& complex, const Labels& labels, const Storeys& storeys);
+std::vector<Space> measure_storeys(const EndHeights& heights, const Labels& labels, const Storeys& storeys);
 
 }  // namespace roomcut::extract

@@ -18,6 +18,8 @@ Json space_json(const Space& space, const ScanCoordinates& scan) {
   return {{"centre_m", {floor.x(), floor.y()}},
           {"floor_z_m", floor.z()},
           {"ceiling_z_m", scan.height_to_scan(space.centre, space.ceiling_z)},
+          {"lowest_ceiling_z_m", scan.height_to_scan(space.centre, space.lowest_ceiling_z)},
+          {"highest_ceiling_z_m", scan.height_to_scan(space.centre, space.highest_ceiling_z)},
           {"height_m", space.height()},
           {"area_m2", space.area_m2},
           {"volume_m3", space.volume_m3},

@@ -91,7 +91,7 @@ UnknownSpaces find_unknown_spaces(const CellComplex& complex, const Labels& labe
                                   const FaceWeights& weights, const DataTerms& terms, const CellRooms& rooms,
                                   const std::vector<Space>& storeys, const StoreyParams& params) {
   const CellPieces pieces = unknown_pieces(complex, labels, weights);
-  const std::vector<Space> measures = measure_pieces(complex, labels, pieces);
+  const std::vector<Space> measures = measure_pieces(EndHeights(complex), labels, pieces);
   std::vector<double> floors;
   for (const Space& storey : storeys) {
     floors.push_back(storey.floor_z);

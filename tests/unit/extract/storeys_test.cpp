@@ -35,7 +35,7 @@ TEST(Storeys, FloorsOfOneStoreyMayLieAtDifferentHeights) {
   ASSERT_EQ(storeys.floor_z.size(), 2U);
   EXPECT_DOUBLE_EQ(storeys.floor_z[0], 0.15);  // two of the three bays
   EXPECT_DOUBLE_EQ(storeys.floor_z[1], 3.1);
-  const auto rooms = find_rooms(r.complex, r.labels, storeys).spaces;
+  const auto rooms = find_rooms(EndHeights(r.complex), r.labels, storeys).spaces;
   ASSERT_EQ(rooms.size(), 6U);
   EXPECT_EQ(rooms[2].storey, 0);
   EXPECT_EQ(rooms[3].storey, 1);
@@ -47,7 +47,7 @@ TEST(Storeys, AHallThroughBothStoreysCountsForTheLowerOne) {
   const Row r = row({0, 2.7, 3, 6}, [](int bay, double z) { return bay == 2 || z < 2.7 || z > 3; });
   const Storeys storeys = find_storeys(r.complex, r.labels.label, {});
   ASSERT_EQ(storeys.floor_z.size(), 2U);
-  const auto levels = measure_storeys(r.complex, r.labels, storeys);
+  const auto levels = measure_storeys(EndHeights(r.complex), r.labels, storeys);
   EXPECT_NEAR(levels[0].area_m2, 60, 1e-9);
   EXPECT_NEAR(levels[1].area_m2, 40, 1e-9);
   EXPECT_NEAR(levels[0].volume_m3, 2 * 20 * 2.7 + 20 * 6, 1e-9);
@@ -75,11 +75,12 @@ TEST(Storeys, RoomsAndStoreysAddUpToTheEmptyVolume) {
   r.labels.unobserved.assign(r.complex.cells(), 1);
   const Storeys storeys = find_storeys(r.complex, r.labels.label, {});
   double rooms = 0, levels = 0, unobserved = 0;
-  for (const Space& room : find_rooms(r.complex, r.labels, storeys).spaces) {
+  for (const Space& room : find_rooms(EndHeights(r.complex), r.labels, storeys).spaces) {
     rooms += room.volume_m3;
     unobserved += room.unobserved_m3;
   }
-  for (const Space& storey : measure_storeys(r.complex, r.labels, storeys)) levels += storey.volume_m3;
+  for (const Space& storey : measure_storeys(EndHeights(r.complex), r.labels, storeys))
+    levels += storey.volume_m3;
   const double expected = 20 * (2 * (2.7 + 3) + 6);
   EXPECT_NEAR(rooms, expected, 1e-9);
   EXPECT_NEAR(levels, expected, 1e-9);
