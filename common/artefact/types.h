@@ -13,7 +13,7 @@ struct ArtefactType {
 
 namespace artefacts {
 inline constexpr ArtefactType kCloud{"cloud", 1, 1};
-inline constexpr ArtefactType kSlices{"slices", 1, 1};
+inline constexpr ArtefactType kSlices{"slices", 1, 2};
 inline constexpr ArtefactType kHough{"hough", 1, 0};
 inline constexpr ArtefactType kWallLines{"wall_lines", 1, 1};
 inline constexpr ArtefactType kCells{"cells", 1, 0};
