@@ -45,7 +45,7 @@ bool slopes(const PlanarRegion& region, const std::vector<SurfaceVoxel>& voxels,
   const double pitch = region.plane.pitch();
   if (pitch < kGentlest || pitch > kSteepest) return false;
   const auto [low, high] = heights(region, voxels);
-  return high - low > std::max(0.08, 12 * noise_m);
+  return high - low > std::max(0.08, (pitch < kSteepestDrift ? 16 : 12) * noise_m);
 }
 
 bool is_wide(const PlanarRegion& region) {
