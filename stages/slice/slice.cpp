@@ -10,6 +10,8 @@
 #include "common/geometry/preferred_number.h"
 #include "stages/slice/levels.h"
 #include "stages/slice/open_edges.h"
+#include "stages/slice/planes.h"
+#include "stages/slice/steps.h"
 #include "stages/slice/surfaces.h"
 #include "stages/slice/survey.h"
 #include "stages/slice/wall_slices.h"
@@ -109,11 +111,17 @@ void require_vertical(const HeightSurvey& survey, const std::vector<OccupancyGri
 SliceResult slice_cloud(const CloudHeader& header, const TileSource& tiles, const SliceParams& params) {
   SliceResult result;
   const LevelRules rules = level_rules(header, params, result.choices);
-  const HeightSurvey survey = survey_heights(header, tiles, rules.raster_m, kHistogramBin, params.by_area);
-  std::vector<SurfaceCell> cells = surface_cells(survey.patches, rules.noise_m);
-  if (params.drift) measure_drift(cells, rules.raster_m, rules.noise_m);
-
   Slices& slices = result.slices;
+  HeightSurvey survey = survey_heights(header, tiles, rules.raster_m, kHistogramBin, params.by_area);
+  const std::vector<SurfaceCell> all_cells = surface_cells(survey.patches, rules.noise_m);
+  if (params.step_m > 0) {
+    const SlopedSurfaces sloped = find_planes(survey, rules.noise_m);
+    remove_planes(sloped, rules.noise_m, survey);
+    slices.planes = sloped.planes;
+  }
+  std::vector<SurfaceCell> cells =
+      slices.planes.empty() ? all_cells : surface_cells(survey.patches, rules.noise_m);
+  if (params.drift) measure_drift(cells, rules.raster_m, rules.noise_m);
   slices.frame = header.frame;
   slices.bbox_min = header.bbox_min;
   slices.bbox_max = header.bbox_max;
@@ -121,16 +129,16 @@ SliceResult slice_cloud(const CloudHeader& header, const TileSource& tiles, cons
   slices.density = header.density;
   slices.histogram = survey.horizontal;
   slices.levels = find_levels(survey, cells, rules, &result.rejected);
-  add_caps(slices.levels, survey, cells, params.cap_reach_m);
+  add_caps(slices.levels, survey, cells, slices.planes, params.cap_reach_m);
   require_levels(survey, slices.levels, result.rejected);
-  if (params.step_m > 0) add_steps(slices.levels, survey, cells, params.step_m);
+  if (params.step_m > 0) add_steps(slices.levels, survey, cells, slices.planes, params.step_m);
 
   slices.tau_m = choose_tau(header, params, result.choices);
-  const auto ranges =
-      evidence_ranges(slices.levels, params.tall_slice_m, params.evidence_share, 0.5 * slices.tau_m);
+  const auto ranges = evidence_ranges(slices.levels, params.tall_slice_m, params.evidence_share,
+                                      slices.planes, 0.5 * slices.tau_m);
   slices.wall_slices = occupy_wall_slices(tiles, ranges, slices.tau_m, params.upright_only);
   if (params.open_edges) {
-    result.open_edges = open_edges(survey, cells, slices.levels);
+    result.open_edges = open_edges(survey, all_cells, slices.levels);
     for (const OpenEdge& edge : result.open_edges) {
       add_open_edge(edge, slices.tau_m, slices.wall_slices[edge.level - 1]);
     }

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/slice/voxels.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "stages/slice/fixed_point.h"
+
+namespace roomcut::slice {
+namespace {
+
+constexpr double kEdge_m = 0.3;
+constexpr double kLengthUnit = 0x1.0p-14;  // m; squares of a voxel's edge stay far below 2^63
+constexpr double kAreaUnit = 0x1.0p-30;    // m^2
+
+Moments to_moments(const CellEntry<VoxelSum>& entry, const VoxelSize& size) {
+  const VoxelSum& sum = entry.sum;
+  const double n = static_cast<double>(sum.count);
+  const auto mean = [n](std::int64_t value, double unit) { return static_cast<double>(value) * unit / n; };
+  const Vec3 corner(entry.key.ix * size.plan_m, entry.key.iy * size.plan_m, entry.key.iz * size.height_m);
+  const Vec3 u(mean(sum.x, kLengthUnit), mean(sum.y, kLengthUnit), mean(sum.z, kLengthUnit));
+  constexpr double kSquare = kLengthUnit * kLengthUnit;
+  Eigen::Matrix3d squares;
+  squares << mean(sum.xx, kSquare), mean(sum.xy, kSquare), mean(sum.xz, kSquare), mean(sum.xy, kSquare),
+      mean(sum.yy, kSquare), mean(sum.yz, kSquare), mean(sum.xz, kSquare), mean(sum.yz, kSquare),
+      mean(sum.zz, kSquare);
+  Moments moments;
+  moments.area_m2 = static_cast<double>(sum.area) * kAreaUnit;
+  const Vec3 p = corner + u;
+  moments.first = moments.area_m2 * p;
+  moments.second = moments.area_m2 * (squares - u * u.transpose() + p * p.transpose());
+  return moments;
+}
+
+}  // namespace
+
+VoxelSize voxel_size(double raster_m) {
+  const double plan = raster_m * std::max(1.0, std::round(kEdge_m / raster_m));
+  return {plan, 0.5 * plan};
+}
+
+VoxelSum& VoxelSum::operator+=(const VoxelSum& other) {
+  count += other.count;
+  area += other.area;
+  x += other.x;
+  y += other.y;
+  z += other.z;
+  xx += other.xx;
+  xy += other.xy;
+  xz += other.xz;
+  yy += other.yy;
+  yz += other.yz;
+  zz += other.zz;
+  return *this;
+}
+
+void add_to_voxel(CellTable<VoxelSum>& table, const VoxelSize& size, const Vec3& point, double area_m2) {
+  const CellKey key{floor_to_int(point.x() / size.plan_m), floor_to_int(point.y() / size.plan_m),
+                    floor_to_int(point.z() / size.height_m)};
+  const std::int64_t x = to_units(std::max(0.0, point.x() - key.ix * size.plan_m), kLengthUnit);
+  const std::int64_t y = to_units(std::max(0.0, point.y() - key.iy * size.plan_m), kLengthUnit);
+  const std::int64_t z = to_units(std::max(0.0, point.z() - key.iz * size.height_m), kLengthUnit);
+  table.at(key) += {1, to_units(area_m2, kAreaUnit), x, y, z, x * x, x * y, x * z, y * y, y * z, z * z};
+}
+
+std::vector<SurfaceVoxel> to_voxels(const std::vector<CellEntry<VoxelSum>>& entries, const VoxelSize& size) {
+  std::vector<SurfaceVoxel> voxels;
+  voxels.reserve(entries.size());
+  for (const CellEntry<VoxelSum>& entry : entries) {
+    if (entry.sum.area == 0) continue;
+    voxels.push_back({entry.key, static_cast<std::int32_t>(entry.sum.count), to_moments(entry, size)});
+  }
+  return voxels;
+}
+
+VoxelGraph voxel_graph(const std::vector<SurfaceVoxel>& voxels) {
+  std::vector<std::vector<std::uint32_t>> rows(voxels.size());
+  tbb::parallel_for(std::size_t{0}, voxels.size(), [&](std::size_t i) {
+    for_each_near(voxels, voxels[i].key, 1, 1, [&](std::size_t j) {
+      if (j != i) rows[i].push_back(static_cast<std::uint32_t>(j));
+    });
+  });
+  VoxelGraph graph;
+  graph.first.reserve(voxels.size() + 1);
+  for (const auto& row : rows) {
+    graph.first.push_back(static_cast<std::uint32_t>(graph.neighbours.size()));
+    graph.neighbours.insert(graph.neighbours.end(), row.begin(), row.end());
+  }
+  graph.first.push_back(static_cast<std::uint32_t>(graph.neighbours.size()));
+  return graph;
+}
+
+}  // namespace roomcut::slice
