@@ -7,77 +7,84 @@
 #include "common/artefact/limits.h"
 
 namespace roomcut {
-
 namespace {
 
-constexpr double kSteepest = 1000;  // rise per metre: no such surface is a floor or ceiling
+constexpr double kSteepest = 20;  ///< rise per metre, 87 degrees; `slice` finds planes of up to 68
 
-bool is_convex(const std::vector<Vec2>& outline) {
-  constexpr double kStraight_m2 = 1e-9;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Vec2& b = outline[(i + 1) % outline.size()];
-    const Vec2 in = b - outline[i];
-    const Vec2 out = outline[(i + 2) % outline.size()] - b;
-    if (in.x() * out.y() - in.y() * out.x() < -kStraight_m2) return false;
+/// Area of the triangle of three points, twice, positive when they turn left.
+double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
+  return (b.x() - a.x()) * (c.y() - b.y()) - (b.y() - a.y()) * (c.x() - b.x());
+}
+
+/// A hull that is not convex or not counter-clockwise covers nothing, and one of less than three corners has
+/// no area.
+void check_outline(const H5Reader& file, const std::vector<Vec2>& outline) {
+  constexpr double kRounding_m2 = 1e-9;
+  const std::size_t n = outline.size();
+  if (n < 3) file.damaged("planes/outline_offset", "an outline has fewer than three corners");
+  double area = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (turn(outline[i], outline[(i + 1) % n], outline[(i + 2) % n]) < -kRounding_m2) {
+      file.damaged("planes/outline_x", "an outline is not convex and counter-clockwise");
+    }
+    area += turn(outline[0], outline[i], outline[(i + 1) % n]);
   }
-  return outline.size() >= 3;
+  if (area <= 0) file.damaged("planes/outline_x", "an outline is not counter-clockwise");
 }
 
 }  // namespace
 
 void write_planes(H5Writer& file, const std::vector<SlopedPlane>& planes) {
-  std::vector<double> equation, area, rms, corners;
+  std::vector<double> gradient, c, area, rms, x, y;
   std::vector<std::uint8_t> ceiling;
-  std::vector<std::int64_t> offset{0};
+  std::vector<std::uint64_t> offset{0};
   for (const SlopedPlane& plane : planes) {
-    equation.insert(equation.end(), {plane.gradient.x(), plane.gradient.y(), plane.c});
+    gradient.insert(gradient.end(), {plane.gradient.x(), plane.gradient.y()});
+    c.push_back(plane.c);
     area.push_back(plane.area_m2);
     rms.push_back(plane.rms_m);
     ceiling.push_back(plane.ceiling ? 1 : 0);
-    for (const Vec2& p : plane.outline) corners.insert(corners.end(), {p.x(), p.y()});
-    offset.push_back(static_cast<std::int64_t>(corners.size() / 2));
+    for (const Vec2& p : plane.outline) {
+      x.push_back(p.x());
+      y.push_back(p.y());
+    }
+    offset.push_back(x.size());
   }
-  file.write("planes/equation", std::span<const double>(equation), {planes.size(), 3}, "1",
-             "gx, gy (rise per metre) and c (m) of sloped floors and ceilings: z = gx x + gy y + c");
-  file.write("planes/area", area, "m^2", "surface of the plane's points");
-  file.write("planes/rms", rms, "m", "distance of its points from it");
-  file.write("planes/ceiling", ceiling, "1", "1 = seen from below (roof, underside of a stair), 0 = floor");
-  file.write("planes/outline_offset", offset, "1",
-             "outline of plane i = outline_xy[outline_offset[i] .. outline_offset[i+1])");
-  file.write("planes/outline_xy", std::span<const double>(corners), {corners.size() / 2, 2}, "m",
-             "convex hull in plan of where its points lie, counter-clockwise");
+  file.write("planes/gradient", std::span<const double>(gradient), {planes.size(), 2}, "1",
+             "rise per metre along x and y: the plane is z = gradient . (x, y) + c");
+  file.write("planes/c", c, "m", "height over the local origin");
+  file.write("planes/area", area, "m^2", "surface of its points");
+  file.write("planes/rms", rms, "m", "distance of its points from it, root mean square");
+  file.write("planes/ceiling", ceiling, "1", "1 = seen from below, as a roof; 0 = a floor, as a ramp");
+  file.write("planes/outline_offset", offset, "1", "first corner of plane i's outline");
+  file.write("planes/outline_x", x, "m", "corner of the convex hull of its points, counter-clockwise");
+  file.write("planes/outline_y", y, "m", "corner of the convex hull of its points, counter-clockwise");
 }
 
 std::vector<SlopedPlane> read_planes(const H5Reader& file) {
-  if (!file.exists("planes/equation")) return {};
   using limits::kFarthest_m;
-  const auto equation = read_in_range<double>(file, "planes/equation", {0, 3}, -kSteepest * kFarthest_m,
-                                              kSteepest * kFarthest_m);
-  const std::size_t n = equation.size() / 3;
+  if (!file.exists("planes/c")) return {};
+  const auto c =
+      read_in_range<double>(file, "planes/c", {0}, -kSteepest * kFarthest_m, kSteepest * kFarthest_m);
+  const std::uint64_t n = c.size();
+  const auto gradient = read_in_range<double>(file, "planes/gradient", {n, 2}, -kSteepest, kSteepest);
   const auto area = read_in_range<double>(file, "planes/area", {n}, 0, limits::kLargestArea_m2);
-  const auto rms = read_in_range<double>(file, "planes/rms", {n}, 0, limits::kLargestEdge_m);
+  const auto rms = read_in_range<double>(file, "planes/rms", {n}, 0, limits::kLargestNoise_m);
   const auto ceiling = read_in_range<std::uint8_t>(file, "planes/ceiling", {n}, 0, 1);
-  const auto offset = file.read<std::int64_t>("planes/outline_offset", {n + 1});
-  const auto xy = read_in_range<double>(file, "planes/outline_xy", {0, 2}, -kFarthest_m, kFarthest_m);
-  if (offset.front() != 0 || offset.back() != static_cast<std::int64_t>(xy.size() / 2) ||
-      !std::is_sorted(offset.begin(), offset.end())) {
-    file.damaged("planes/outline_offset", "the offsets do not fit the values");
+  const auto offset = file.read<std::uint64_t>("planes/outline_offset", {n + 1});
+  if (offset.front() != 0 || !std::is_sorted(offset.begin(), offset.end())) {
+    file.damaged("planes/outline_offset", "is not ascending from 0");
   }
+  const auto corners = [&](const char* path) {
+    return read_in_range<double>(file, path, {offset.back()}, -kFarthest_m, kFarthest_m);
+  };
+  const auto x = corners("planes/outline_x");
+  const auto y = corners("planes/outline_y");
   std::vector<SlopedPlane> planes(n);
   for (std::size_t i = 0; i < n; ++i) {
-    SlopedPlane& plane = planes[i];
-    plane.gradient = {equation[3 * i], equation[3 * i + 1]};
-    plane.c = equation[3 * i + 2];
-    plane.area_m2 = area[i];
-    plane.rms_m = rms[i];
-    plane.ceiling = ceiling[i] != 0;
-    for (auto k = static_cast<std::size_t>(offset[i]); k < static_cast<std::size_t>(offset[i + 1]); ++k) {
-      plane.outline.emplace_back(xy[2 * k], xy[2 * k + 1]);
-    }
-    if (plane.gradient.norm() > kSteepest) file.damaged("planes/equation", "a plane stands upright");
-    if (!is_convex(plane.outline)) {
-      file.damaged("planes/outline_xy", "an outline is not convex and counter-clockwise");
-    }
+    planes[i] = {{gradient[2 * i], gradient[2 * i + 1]}, c[i], {}, area[i], rms[i], ceiling[i] != 0};
+    for (std::uint64_t k = offset[i]; k < offset[i + 1]; ++k) planes[i].outline.emplace_back(x[k], y[k]);
+    check_outline(file, planes[i].outline);
   }
   return planes;
 }
