@@ -53,7 +53,7 @@ LineObserver::LineObserver(const std::vector<LineFaces>& lines, const std::vecto
     track_of_[tracks_[k].line] = k;
   }
   histograms_ = std::make_unique<std::atomic<std::uint64_t>[]>(static_cast<std::size_t>(patches) *
-                                                               OffsetHistogram::kBins);
+                                                               kOffsetBins);
   along_ = std::make_unique<std::atomic<std::int64_t>[]>(static_cast<std::size_t>(patches));
 }
 
@@ -124,7 +124,7 @@ void LineObserver::add(const CloudTile& tile) {
   if (lines.empty()) {
     return;
   }
-  const double per_bin = OffsetHistogram::kBins / (2 * band_m_);
+  const double per_bin = kOffsetBins / (2 * band_m_);
   std::uint64_t taken = 0;
   for (std::size_t i = 0; i < tile.size(); ++i) {
     const Hit hit = find_line(tile, i, lines.near(tile.x[i], tile.y[i]));
@@ -133,8 +133,8 @@ void LineObserver::add(const CloudTile& tile) {
     }
     const auto patch = static_cast<std::size_t>(hit.patch);
     const double position = (hit.offset + band_m_) * per_bin;
-    const int bin = std::clamp(static_cast<int>(position), 0, OffsetHistogram::kBins - 1);
-    histograms_[patch * OffsetHistogram::kBins + static_cast<std::size_t>(bin)].fetch_add(
+    const int bin = std::clamp(static_cast<int>(position), 0, kOffsetBins - 1);
+    histograms_[patch * kOffsetBins + static_cast<std::size_t>(bin)].fetch_add(
         OffsetHistogram::pack(position - bin), std::memory_order_relaxed);
     along_[patch].fetch_add(static_cast<std::int64_t>(hit.along * kPerMetre + kHalf),
                             std::memory_order_relaxed);
@@ -150,7 +150,7 @@ std::vector<Observation> LineObserver::observations(std::size_t i) const {
   }
   const LineTrack& track = tracks_[track_of_[i]];
   const LineFaces& faces = lines_[i];
-  std::array<std::uint64_t, OffsetHistogram::kBins> histogram{};
+  std::array<std::uint64_t, kOffsetBins> histogram{};
   std::size_t layer = 0;
   for (std::size_t zone = 0; zone < zones_; ++zone) {
     layer += zone == first_zone_[layer + 1] ? 1 : 0;
@@ -161,7 +161,7 @@ std::vector<Observation> LineObserver::observations(std::size_t i) const {
       const auto patch = static_cast<std::size_t>(track.patch[bin * zones_ + zone]);
       std::uint32_t count = 0;
       for (std::size_t k = 0; k < histogram.size(); ++k) {
-        histogram[k] = histograms_[patch * OffsetHistogram::kBins + k].load();
+        histogram[k] = histograms_[patch * kOffsetBins + k].load();
         count += OffsetHistogram::count(histogram[k]);
       }
       const RobustOffset found = robust_offset(histogram, band_m_, noise_m_);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/cloud/cloud.h"
+#include "common/robust/robust_offset.h"
 #include "stages/refine_lines/line_faces.h"
 #include "stages/refine_lines/line_neighbourhood.h"
 
@@ -24,30 +25,8 @@ struct Observation {
   std::size_t layer = 0;  ///< of the line's raster
 };
 
-/// A histogram of point offsets from a line. Each bin packs a count (upper 24 bits) and a fixed-point sum of
-/// positions inside the bin (lower 40): one order-free addition per point, and means without the bias of bin
-/// centres.
-struct OffsetHistogram {
-  static constexpr int kBins = 50;
-  static constexpr int kSumBits = 40;
-  static constexpr std::uint64_t kSteps = 1024;  ///< of position inside a bin
-
-  static std::uint64_t pack(double position_in_bin);  ///< 0 … 1
-  static std::uint32_t count(std::uint64_t packed) { return static_cast<std::uint32_t>(packed >> kSumBits); }
-  /// Mean position inside the bin, 0 … 1.
-  static double mean(std::uint64_t packed);
-};
-
-/// A location, its uncertainty and the number of points behind it.
-struct RobustOffset {
-  double offset_m = 0, variance_m2 = 0, scatter_m2 = 0;
-  std::uint32_t points = 0;  ///< 0: no location
-};
-
-/// Robust location of the offsets in `histogram` (kBins bins over -half … +half [m]): the fullest window of ±
-/// 2 noise, then Tukey's biweight with c = 3.5 noise to convergence. Unbiased for symmetric noise; skirtings,
-/// frames and furniture further than c from the wall don't count at all.
-RobustOffset robust_offset(std::span<const std::uint64_t> histogram, double half_m, double noise_m);
+/// Bins of a patch's histogram of offsets from its line (common/robust).
+inline constexpr int kOffsetBins = 50;
 
 /// Collects, in one pass over the points and in any order, the observations of all lines. A point counts for
 /// one line only: the nearest one that carries surface at its height and place and whose azimuth fits within

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "common/cells/face_raster.h"
 #include "stages/weigh_faces/coverage.h"
-#include "stages/weigh_faces/face_raster.h"
 #include "stages/weigh_faces/level_sides.h"
 #include "stages/weigh_faces/sparse_counts.h"
 #include "stages/weigh_faces/tolerances.h"

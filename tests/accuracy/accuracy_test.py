@@ -48,7 +48,9 @@ class Choice(unittest.TestCase):
 
     def test_groups_families_scenes_and_patterns(self):
         self.assertEqual(len(self.names("uniform")), 5 * len(scenes.FAMILIES))
-        self.assertEqual(len(self.names("house")), 5 * len(scenes.GROUPS))  # a house is in all of them
+        self.assertEqual(len(self.names("house")), 5 * sum("house" in scenes.FAMILIES_OF.get(group, scenes.FAMILIES) for group in scenes.GROUPS))
+        self.assertEqual(len(self.names("slopes")), 60)  # when asked for
+        self.assertFalse({"slopes_07"} & set(self.names("")))
         self.assertEqual(self.names("tripod_thin_2"), ["tripod_thin_2"])
         self.assertEqual(self.names("moved_uniform_house_1"), [f"moved_uniform_house_1_{pose}" for pose in moved.POSES])
         self.assertEqual(self.names("uniform_house_1"), ["uniform_house_1"])

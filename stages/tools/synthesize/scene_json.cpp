@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages/tools/synthesize/scene_json.h"
 
+#include <algorithm>
 #include <map>
 #include <numbers>
 #include <stdexcept>
 
 #include "common/artefact/atomic_file.h"
 #include "common/artefact/json_values.h"
+#include "stages/tools/synthesize/elements.h"
 #include "stages/tools/synthesize/families.h"
 #include "stages/tools/synthesize/plan.h"
+#include "stages/tools/synthesize/room_heights.h"
+#include "stages/tools/synthesize/room_json.h"
 #include "stages/tools/synthesize/scene_limits.h"
 #include "stages/tools/synthesize/scene_reader.h"
 
@@ -19,6 +23,12 @@ using nlohmann::json;
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string all;
+  for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
+  return all;
+}
 
 class SceneParser {
  public:
@@ -114,6 +124,8 @@ void SceneParser::parse_room(const json& value, const std::string& path, double 
   } else {
     room.polygon = node.polygon("polygon");
   }
+  read_room_elements(node, room);
+  if (!room.polygon.empty()) settle_heights(room);
   if (!room_by_name_.emplace(room.name, static_cast<int>(scene_.rooms.size())).second) {
     node.problem("a second room named \"" + shown(room.name) + "\"",
                  "room names are unique in the whole scene");
@@ -248,6 +260,14 @@ void SceneParser::parse_random(const json& value, const std::string& path) {
   spec.doors = node.boolean("doors", true);
   spec.shafts = node.boolean("shafts", true);
   spec.unscanned = node.number("unscanned", 0, 0, 0.9);
+  for (const json& element : node.list("elements")) {
+    const auto& known = element_names();
+    if (!element.is_string() || std::find(known.begin(), known.end(), element) == known.end()) {
+      node.problem("\"elements\" must be a list of some of " + joined(known));
+      continue;
+    }
+    spec.elements.push_back(element);
+  }
   add_random_building(spec, scene_);
   for (std::size_t i = 0; i < scene_.rooms.size(); ++i)
     room_by_name_[scene_.rooms[i].name] = static_cast<int>(i);

@@ -4,6 +4,7 @@
 
 #include "common/artefact/json_values.h"
 #include "stages/tools/synthesize/plan.h"
+#include "stages/tools/synthesize/room_heights.h"
 #include "stages/tools/synthesize/synthesize_io.h"
 #include "stages/tools/synthesize/walls.h"
 
@@ -21,6 +22,23 @@ json point(const Vec2& p) {
 }
 json point(const Vec3& p) {
   return json::array({rounded(p.x()), rounded(p.y()), rounded(p.z())});
+}
+
+/// Of the room alone, without doorways and niches.
+double room_volume(const SceneRoom& room) {
+  if (room.slopes.empty() && room.columns.empty()) {
+    return doubled_area(room.polygon) / 2 * (room.ceiling - room.floor);
+  }
+  Scene alone;
+  alone.rooms.push_back(room);
+  alone.rooms[0].niches.clear();
+  return volume(make_truth(alone, place(alone)));
+}
+
+double room_area(const SceneRoom& room) {
+  double area = doubled_area(room.polygon) / 2;
+  for (const SceneColumn& column : room.columns) area -= doubled_area(column.polygon) / 2;
+  return area;
 }
 
 class TruthTables {
@@ -55,22 +73,21 @@ class TruthTables {
   void add_rooms() {
     for (std::size_t i = 0; i < scene_.rooms.size(); ++i) {
       const SceneRoom& room = scene_.rooms[i];
-      const double area = doubled_area(room.polygon) / 2;
       json polygon = json::array();
       for (const Vec2& p : room.polygon) polygon.push_back(point(moved(p)));
-      const Vec2 inside = moved(innermost_point(room.polygon));
-      rooms.push_back(
-          {{"id", first_room_ + i},
-           {"name", room.name + suffix_},
-           {"storey", storey_ + room.storey},
-           {"storey_name", scene_.storeys[static_cast<std::size_t>(room.storey)]},
-           {"floor", rounded(room.floor + offset_.z())},
-           {"ceiling", rounded(room.ceiling + offset_.z())},
-           {"area", rounded(area)},
-           {"volume", rounded(area * (room.ceiling - room.floor))},
-           {"center", point(Vec3(inside.x(), inside.y(), 0.5 * (room.floor + room.ceiling) + offset_.z()))},
-           {"scanned", room.scanned},
-           {"polygon", polygon}});
+      const Vec2 inside = innermost_point(room.polygon);
+      const double middle = 0.5 * (floor_at(room, inside) + ceiling_at(room, inside));
+      rooms.push_back({{"id", first_room_ + i},
+                       {"name", room.name + suffix_},
+                       {"storey", storey_ + room.storey},
+                       {"storey_name", scene_.storeys[static_cast<std::size_t>(room.storey)]},
+                       {"floor", rounded(room.floor + offset_.z())},
+                       {"ceiling", rounded(room.ceiling + offset_.z())},
+                       {"area", rounded(room_area(room))},
+                       {"volume", rounded(room_volume(room))},
+                       {"center", point(Vec3(Vec3(inside.x(), inside.y(), middle) + offset_))},
+                       {"scanned", room.scanned},
+                       {"polygon", polygon}});
     }
   }
 

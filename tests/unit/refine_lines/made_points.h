@@ -6,29 +6,13 @@
 #include <numbers>
 
 #include "common/cloud/cloud.h"
-#include "common/random/counter_random.h"
 #include "stages/refine_lines/line_faces.h"
+#include "tests/unit/robust/normal.h"
 
 namespace roomcut::testing {
 using namespace roomcut::refine_lines;
 
 inline constexpr double kDeg = std::numbers::pi / 180;
-
-/// Normal random numbers, the same on every machine.
-class Normal {
- public:
-  explicit Normal(std::uint64_t seed) : seed_(seed) {}
-  double uniform(double low, double high) { return low + (high - low) * random_unit(seed_, 1, count_++); }
-  double operator()(double sigma) {
-    const double u = random_unit(seed_, 2, count_++);
-    const double v = random_unit(seed_, 3, count_++);
-    return sigma * std::sqrt(-2 * std::log(1 - u)) * std::cos(2 * std::numbers::pi * v);
-  }
-
- private:
-  std::uint64_t seed_;
-  std::uint64_t count_ = 0;
-};
 
 inline void add_point(CloudTile& tile, const Vec2& p, double z, double theta) {
   const double turned = normalised(theta, 0).theta;

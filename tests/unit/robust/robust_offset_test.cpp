@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/robust/robust_offset.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
 
-#include "stages/refine_lines/observe.h"
-#include "tests/unit/refine_lines/made_points.h"
+#include "tests/unit/robust/normal.h"
 
-namespace roomcut::refine_lines {
+namespace roomcut {
 namespace {
 
 using testing::Normal;
 
 constexpr double kHalf_m = 0.06;
+constexpr std::size_t kBins = 50;
 
 class Histogram {
  public:
   void add(double offset) {
-    const double position = (offset + kHalf_m) / (2 * kHalf_m) * OffsetHistogram::kBins;
-    if (position >= 0 && position < OffsetHistogram::kBins) {
+    const double position = (offset + kHalf_m) / (2 * kHalf_m) * kBins;
+    if (position >= 0 && position < kBins) {
       const auto bin = static_cast<std::size_t>(position);
       bins_[bin] += OffsetHistogram::pack(position - static_cast<double>(bin));
     }
@@ -25,7 +27,7 @@ class Histogram {
   RobustOffset location(double noise) const { return robust_offset(bins_, kHalf_m, noise); }
 
  private:
-  std::array<std::uint64_t, OffsetHistogram::kBins> bins_{};
+  std::array<std::uint64_t, kBins> bins_{};
 };
 
 TEST(RobustOffset, WithoutNoiseItIsExactFarBelowTheBinWidth) {
@@ -104,4 +106,4 @@ TEST(OffsetHistogram, HoldsSixteenMillionPointsInOneBin) {
 }
 
 }  // namespace
-}  // namespace roomcut::refine_lines
+}  // namespace roomcut

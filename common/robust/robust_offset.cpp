@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/robust/robust_offset.h"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <vector>
 
-#include "stages/refine_lines/observe.h"
-
-namespace roomcut::refine_lines {
+namespace roomcut {
 
 namespace {
 
@@ -23,31 +23,19 @@ struct Bin {
   std::uint32_t count;
 };
 
-/// The bins that hold points, most often a few of many.
-class Bins {
- public:
-  void add(const Bin& bin) { bins_[size_++] = bin; }
-  const Bin* begin() const { return bins_.data(); }
-  const Bin* end() const { return bins_.data() + size_; }
-
- private:
-  std::array<Bin, OffsetHistogram::kBins> bins_{};
-  std::size_t size_ = 0;
-};
-
-/// Centre of the fullest window; of equal ones that nearest to 0.
-double fullest_window(const Bins& bins, double width_m, double noise_m) {
+/// Centre of the fullest window; of equal ones that nearest to 0. There must be a bin.
+double fullest_window(const std::vector<Bin>& bins, double width_m, double noise_m) {
   const int reach = std::max(1, static_cast<int>(std::lround(kModeWindow * noise_m / width_m)));
   double best_offset = 0;
   std::uint64_t best_count = 0;
-  const Bin* first = bins.begin();
-  for (int centre = 0; centre < OffsetHistogram::kBins; ++centre) {
+  auto first = bins.begin();
+  for (int centre = bins.front().place; centre <= bins.back().place; ++centre) {
     std::uint64_t count = 0;
     double sum = 0;
     while (first != bins.end() && first->place < centre - reach) {
       ++first;
     }
-    for (const Bin* bin = first; bin != bins.end() && bin->place <= centre + reach; ++bin) {
+    for (auto bin = first; bin != bins.end() && bin->place <= centre + reach; ++bin) {
       count += bin->count;
       sum += bin->count * bin->offset;
     }
@@ -74,15 +62,19 @@ double OffsetHistogram::mean(std::uint64_t packed) {
 }
 
 RobustOffset robust_offset(std::span<const std::uint64_t> histogram, double half_m, double noise_m) {
-  const double width = 2 * half_m / OffsetHistogram::kBins;
+  const double width = 2 * half_m / static_cast<double>(histogram.size());
   const double noise = std::max(noise_m, 0.5 * width);
-  Bins bins;
-  for (int k = 0; k < OffsetHistogram::kBins; ++k) {
-    const std::uint64_t packed = histogram[static_cast<std::size_t>(k)];
+  std::vector<Bin> bins;
+  for (std::size_t k = 0; k < histogram.size(); ++k) {
+    const std::uint64_t packed = histogram[k];
     const std::uint32_t count = OffsetHistogram::count(packed);
     if (count > 0) {
-      bins.add({k, -half_m + (k + OffsetHistogram::mean(packed)) * width, count});
+      const double offset = -half_m + (static_cast<double>(k) + OffsetHistogram::mean(packed)) * width;
+      bins.push_back({static_cast<int>(k), offset, count});
     }
+  }
+  if (bins.empty()) {
+    return {};
   }
   const double cut = kTukey * noise;
   double location = fullest_window(bins, width, noise);
@@ -116,4 +108,4 @@ RobustOffset robust_offset(std::span<const std::uint64_t> histogram, double half
   return result;
 }
 
-}  // namespace roomcut::refine_lines
+}  // namespace roomcut

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stages/weigh_faces/face_raster.h"
+#include "common/cells/face_raster.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/unit/weigh_faces/grid_complex.h"
 
-namespace roomcut::weigh_faces {
+namespace roomcut {
 namespace {
+
+using weigh_faces::grid_complex;
 
 std::vector<double> areas_of(const FaceRaster& raster, std::size_t faces) {
   std::vector<double> area(faces, 0.0);
@@ -71,4 +73,4 @@ TEST(FaceRaster, ThinFacesKeepThreeFifthsOfTheirWidth) {
 }
 
 }  // namespace
-}  // namespace roomcut::weigh_faces
+}  // namespace roomcut

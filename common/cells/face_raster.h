@@ -6,7 +6,7 @@
 
 #include "common/cells/plan_grid.h"
 
-namespace roomcut::weigh_faces {
+namespace roomcut {
 
 /// The plan's faces cut into the bins of a grid, exactly: one piece per (bin, face) that meet, with its area.
 /// Faces are shrunk by a margin first (thin faces by at most a fifth of their width), so that the noise of a
@@ -46,4 +46,4 @@ class FaceRaster {
   std::vector<HalfPlane> sides_;  // of the shrunk faces
 };
 
-}  // namespace roomcut::weigh_faces
+}  // namespace roomcut

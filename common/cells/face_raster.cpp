@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stages/weigh_faces/face_raster.h"
+#include "common/cells/face_raster.h"
 
 #include <tbb/parallel_for.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-namespace roomcut::weigh_faces {
+namespace roomcut {
 namespace {
 
 using Polygon = std::vector<Vec2>;
@@ -155,4 +155,4 @@ std::int64_t FaceRaster::find(const Vec2& p) const {
   return -1;
 }
 
-}  // namespace roomcut::weigh_faces
+}  // namespace roomcut

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+
+#include "stages/fit_surfaces/plane_fit.h"
+#include "stages/fit_surfaces/two_heights.h"
+
+namespace roomcut::fit_surfaces {
+
+/// Level, or tilted where the samples prove it: the tilt explains more than level ones at one or two heights
+/// do (Bayesian information criterion), is more than chance by the scatter of blocks of floor, and the
+/// samples reach over most of what it is to hold for. Where the samples lie at two heights, the surface is
+/// level at that with more area. `outline`: corners of the region. At least one sample.
+PlaneFit fit_surface(std::span<const Sample> samples, const Vec2& middle, std::span<const Vec2> outline,
+                     bool may_tilt);
+
+/// Whether two level surfaces explain the samples better than one, level or tilted.
+bool has_two_heights(std::span<const Sample> samples, const Vec2& middle, const TwoHeights& two);
+
+}  // namespace roomcut::fit_surfaces

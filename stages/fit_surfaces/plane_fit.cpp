@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages/fit_surfaces/plane_fit.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+namespace roomcut::fit_surfaces {
+namespace {
+
+constexpr double kTukey = 4.685;
+constexpr double kCauchy = 2.385;  // wide: finds the way from a bad start
+constexpr double kMadToSigma = 1.4826;
+constexpr double kLargestUnevenness_m = 0.03;
+constexpr double kTypicalUnevenness_m = 0.001;
+constexpr double kSurface_m = 0.002;  // scale on which the best of several starts is told
+constexpr double kGradientPrior = 0.02;
+constexpr double kSmallestShare = 0.02;
+constexpr int kIterations = 50;
+constexpr int kRounds = 3;
+
+enum class Loss { kWide, kSharp };
+
+double weight(double r, Loss loss) {
+  const double u = r / (loss == Loss::kWide ? kCauchy : kTukey);
+  if (loss == Loss::kWide) {
+    return 1 / (1 + u * u);
+  }
+  return std::abs(u) < 1 ? (1 - u * u) * (1 - u * u) : 0;
+}
+
+/// Weighted median; shares as weights.
+double median(std::vector<std::pair<double, double>> values) {
+  std::sort(values.begin(), values.end());
+  double all = 0;
+  for (const auto& [value, share] : values) {
+    all += share;
+  }
+  double below = 0;
+  for (const auto& [value, share] : values) {
+    below += share;
+    if (below >= 0.5 * all) {
+      return value;
+    }
+  }
+  return values.empty() ? 0 : values.back().first;
+}
+
+struct Problem {
+  std::span<const Sample> samples;
+  bool tilts = false;
+  Vec2 expected{0, 0};
+};
+
+Eigen::Vector3d jacobian(const Problem& problem, const PlaneFit& fit, const Sample& s) {
+  const Vec2 arm = problem.tilts ? Vec2(s.at - fit.middle) : Vec2(0, 0);
+  return {1, arm.x(), arm.y()};
+}
+
+/// What is known without samples: of a level surface that its gradient is none.
+Eigen::Matrix3d prior(const Problem& problem) {
+  const double of_gradient = problem.tilts ? 1 / (kGradientPrior * kGradientPrior) : 1;
+  return Eigen::Vector3d(0, of_gradient, of_gradient).asDiagonal();
+}
+
+/// Information that a sample has of its surface's height: small pieces have as much unevenness as large ones.
+double information(const Sample& s, double uneven) {
+  return 1 / (s.variance_m2 + uneven * uneven / std::max(s.share, kSmallestShare));
+}
+
+/// Iterated reweighted least squares from `fit` on.
+void solve(const Problem& problem, Loss loss, PlaneFit& fit) {
+  const double uneven2 = fit.unevenness_m * fit.unevenness_m;
+  for (int i = 0; i < kIterations; ++i) {
+    Eigen::Matrix3d normal = prior(problem);
+    const Vec2 off = fit.gradient - problem.expected;
+    Eigen::Vector3d right = -normal * Eigen::Vector3d(0, off.x(), off.y());
+    for (const Sample& s : problem.samples) {
+      const double r = s.z - fit.height(s.at);
+      const double w =
+          information(s, fit.unevenness_m) * weight(r / std::sqrt(s.variance_m2 + uneven2), loss);
+      const Eigen::Vector3d j = jacobian(problem, fit, s);
+      normal += w * j * j.transpose();
+      right += w * r * j;
+    }
+    if (!(normal(0, 0) > 0)) {
+      return;  // nothing within reach of the loss
+    }
+    const Eigen::Vector3d change = normal.ldlt().solve(right);
+    fit.z += change(0);
+    fit.gradient += change.tail<2>();
+    if (std::abs(change(0)) + change.tail<2>().norm() < 1e-9) {
+      return;
+    }
+  }
+}
+
+std::vector<double> residuals_of(std::span<const Sample> samples, const PlaneFit& fit) {
+  std::vector<double> residuals;
+  residuals.reserve(samples.size());
+  for (const Sample& s : samples) {
+    residuals.push_back(s.z - fit.height(s.at));
+  }
+  return residuals;
+}
+
+/// Heights at which the surface may lie over the middle: the median, and the two fullest 3 mm, of what the
+/// samples are above the expected gradient.
+std::vector<double> start_heights(const Problem& problem, const Vec2& middle) {
+  constexpr double kBin_m = 0.003;
+  std::vector<std::pair<double, double>> heights;
+  std::map<long, double> bins;
+  for (const Sample& s : problem.samples) {
+    heights.emplace_back(s.z - problem.expected.dot(s.at - middle), s.share);
+    bins[std::lround(heights.back().first / kBin_m)] += s.share;
+  }
+  std::vector<std::pair<double, long>> fullest;
+  for (const auto& [bin, share] : bins) {
+    const auto next = bins.find(bin + 1);
+    fullest.emplace_back(-share - (next == bins.end() ? 0 : next->second), bin);
+  }
+  std::sort(fullest.begin(), fullest.end());
+  std::vector<double> starts{median(heights)};
+  for (std::size_t i = 0; i < std::min<std::size_t>(2, fullest.size()); ++i) {
+    starts.push_back(kBin_m * (static_cast<double>(fullest[i].second) + 0.5));
+  }
+  return starts;
+}
+
+/// Covariance from the samples' own scatter, in blocks of one patch, 1, 2 and 4 m: neighbouring residuals
+/// resemble each other, and blocks larger than that don't. The largest counts, and no less than the
+/// variances of the samples let expect.
+Eigen::Matrix3d covariance(const Problem& problem, const PlaneFit& fit) {
+  constexpr double kFewestBlocks = 8;
+  const double uneven = std::max(fit.unevenness_m, kTypicalUnevenness_m);
+  Eigen::Matrix3d normal = prior(problem);
+  for (const Sample& s : problem.samples) {
+    const Eigen::Vector3d j = jacobian(problem, fit, s);
+    normal += information(s, uneven) * j * j.transpose();
+  }
+  const Eigen::Matrix3d expected = normal.inverse();
+  Eigen::Matrix3d largest = expected;
+  for (const double edge : {0.5, 1.0, 2.0, 4.0}) {
+    std::map<std::pair<long, long>, Eigen::Vector3d> scores;
+    for (const Sample& s : problem.samples) {
+      const double r = s.z - fit.height(s.at);
+      const double sigma = std::sqrt(s.variance_m2 + uneven * uneven);
+      const auto block =
+          std::pair{std::lround(std::floor(s.at.x() / edge)), std::lround(std::floor(s.at.y() / edge))};
+      const auto found = scores.try_emplace(block, Eigen::Vector3d::Zero()).first;
+      found->second +=
+          information(s, uneven) * weight(r / sigma, Loss::kSharp) * r * jacobian(problem, fit, s);
+    }
+    const double blocks = static_cast<double>(scores.size());
+    if (blocks < kFewestBlocks) {
+      break;
+    }
+    Eigen::Matrix3d middle = Eigen::Matrix3d::Zero();
+    for (const auto& [block, score] : scores) {
+      middle += score * score.transpose();
+    }
+    const double parameters = problem.tilts ? 3 : 1;
+    const double few = blocks / (blocks - parameters) * (1 + 2 / blocks);  // as Student's t
+    const Eigen::Matrix3d measured = few * expected * middle * expected;
+    if ((measured - largest).trace() > 0 || measured(0, 0) > largest(0, 0)) {
+      // Each parameter's larger variance; correlations are those of the larger height.
+      Eigen::Matrix3d joined = measured(0, 0) > largest(0, 0) ? measured : largest;
+      for (int i = 0; i < 3; ++i) {
+        joined(i, i) = std::max(measured(i, i), largest(i, i));
+      }
+      largest = joined;
+    }
+  }
+  return largest;
+}
+
+void finish(const Problem& problem, PlaneFit& fit) {
+  double squares = 0;
+  double shares = 0;
+  for (const Sample& s : problem.samples) {
+    const double r = s.z - fit.height(s.at);
+    if (std::abs(r) < kTukey * std::sqrt(s.variance_m2 + fit.unevenness_m * fit.unevenness_m)) {
+      squares += s.share * r * r;
+      shares += s.share;
+    }
+  }
+  fit.rms_m = shares > 0 ? std::sqrt(squares / shares) : 0;
+  fit.covariance = covariance(problem, fit);
+}
+
+PlaneFit fit_plane(const Problem& problem, const Vec2& middle) {
+  PlaneFit best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const double start : start_heights(problem, middle)) {
+    for (const Loss first : {Loss::kSharp, Loss::kWide}) {
+      PlaneFit fit;
+      fit.middle = middle;
+      fit.z = start;
+      fit.gradient = problem.expected;
+      fit.unevenness_m = first == Loss::kSharp
+                             ? kTypicalUnevenness_m
+                             : unevenness(problem.samples, residuals_of(problem.samples, fit));
+      solve(problem, first, fit);
+      for (int round = 0; round < kRounds; ++round) {
+        fit.unevenness_m = unevenness(problem.samples, residuals_of(problem.samples, fit));
+        solve(problem, Loss::kSharp, fit);
+      }
+      const double cost = truncated_cost(problem.samples, kSurface_m,
+                                         [&](const Sample& s) { return s.z - fit.height(s.at); });
+      if (cost < least) {
+        least = cost;
+        best = fit;
+      }
+    }
+  }
+  finish(problem, best);
+  return best;
+}
+
+}  // namespace
+
+double unevenness(std::span<const Sample> samples, const std::vector<double>& residuals) {
+  std::vector<std::pair<double, double>> deviations;
+  std::vector<std::pair<double, double>> variances;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    deviations.emplace_back(std::abs(residuals[i]), samples[i].share);
+    variances.emplace_back(samples[i].variance_m2, samples[i].share);
+  }
+  const double spread = kMadToSigma * median(std::move(deviations));
+  return std::min(kLargestUnevenness_m,
+                  std::sqrt(std::max(0.0, spread * spread - median(std::move(variances)))));
+}
+
+double patches(std::span<const Sample> samples) {
+  double sum = 0;
+  for (const Sample& s : samples) {
+    sum += s.share;
+  }
+  return sum;
+}
+
+PlaneFit fit_level(std::span<const Sample> samples, const Vec2& middle) {
+  return fit_plane({samples, false, Vec2(0, 0)}, middle);
+}
+
+PlaneFit fit_tilted(std::span<const Sample> samples, const Vec2& middle, const Vec2& expected) {
+  return fit_plane({samples, true, expected}, middle);
+}
+
+}  // namespace roomcut::fit_surfaces
