@@ -144,7 +144,7 @@ def share(part, whole):
     return part / whole if whole else None
 
 
-def row_of(scores, truth, openings):
+def row_of(scores, truth, cells_m3):
     """What the table shows of one scene; a model that is not closed has no volume and found no room."""
     volume, rooms, thin, mesh = (scores[name] or {} for name in ("volume", "rooms", "thin", "mesh"))
     scanned = [room for room in truth["rooms"] if room.get("scanned", True)]
@@ -159,17 +159,16 @@ def row_of(scores, truth, openings):
             "merged": rooms.get("merged", 0), "thin_kept": thin.get("walls_kept"), "walls": scores["walls_within_1deg_2cm"],
             "walls_loose": scores["walls_within_1_5deg_4cm"],
             "horizontals": scores["horizontals_within_1deg_2cm"],
-            "hausdorff_pct": scores["distance"]["symmetric"]["hausdorff_pct"], **explained(scores, mesh, volume, openings)}
+            "hausdorff_pct": scores["distance"]["symmetric"]["hausdorff_pct"], **explained(scores, mesh, volume, cells_m3)}
 
 
-def explained(scores, mesh, volume, openings):
+def explained(scores, mesh, volume, cells_m3):
     """The bound of the cells, the causes of what is wrong as shares of the truth, and whether the mesh encloses just its empty
-    cells and the openings that were cut."""
+    cells, which have `cells_m3`."""
     explanation = scores["explanation"]
     if not explanation:
         return {"bound": None, "lost": None, "extra": None, "invented": None, "valid": False}
-    empty = explanation["empty_m3"] + sum(opening["volume_m3"] for opening in openings)
-    equal = abs(mesh["volume_m3"] - empty) <= VOLUME_TOLERANCE * empty
+    equal = abs(mesh["volume_m3"] - cells_m3) <= VOLUME_TOLERANCE * cells_m3
     shares = {kind: {cause: m3 / volume["truth_m3"] for cause, m3 in explanation[kind + "_m3"].items()} for kind in ("lost", "extra")}
     return {"bound": explanation["bound_iou"], **shares, "invented": explanation["invented_m3"] / volume["truth_m3"], "valid": mesh["valid"] and equal}
 
@@ -192,7 +191,7 @@ def run_scene(source, build, scene, root, preset="", scans=""):
         scan, truth, truth_json = make_scan(build, scene, scan_folder)
         make_model(source, build, work, scan, stations_file(scene, truth_json, work), config_file(scene, work, preset))
         summary = read_json(os.path.join(work, "summary.json"))
-        row.update(row_of(evaluate(build, scene, work, truth, truth_json), read_json(truth_json), summary["openings"]))
+        row.update(row_of(evaluate(build, scene, work, truth, truth_json), read_json(truth_json), summary["mesh"]["cells_m3"]))
         row["model"] = {"rooms": len(summary["rooms"]), "openings": len(summary["openings"]), "volume_m3": summary["totals"]["volume_m3"]}
         row["warnings"] = [text for name in STAGES for text in read_json(os.path.join(work, "logs", name + ".json"))["warnings"]]
         row["cpu_s"] = round(cpu_seconds(work), 3)
