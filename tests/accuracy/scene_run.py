@@ -126,11 +126,12 @@ def evaluate(build, scene, work, truth, truth_json):
     scores, truth_cells, stamp = (os.path.join(work, "evaluate", name) for name in ("scores.json", "truth_cells.h5", "scores.stamp"))
     cells = [os.path.join(work, "90_final", name + ".h5") for name in ("cells", "labels", "data_terms")]
     cloud = os.path.join(work, "10_ingest", "cloud.h5")
-    key = "\n".join(map(identity, (program, model, truth, truth_json, cloud, *cells)))
+    surfaces = os.path.join(work, "92_fit_surfaces", "surfaces.h5")
+    key = "\n".join(map(identity, (program, model, truth, truth_json, cloud, surfaces, *cells)))
     if not is_fresh(stamp, key, [scores, truth_cells]):
         coarse = ["--set", "sample_spacing_m=0.1", "--set", "column_spacing_m=0.1"] if "mu_m" in scene else []
         run([program, "-q", "--threads", "1", "--work", work, "--truth", truth, "--truth-json", truth_json, *coarse,
-             "--cells", cells[0], "--labels", cells[1], "--terms", cells[2], "--cloud", cloud, "--cells-out", truth_cells])
+             "--cells", cells[0], "--labels", cells[1], "--terms", cells[2], "--surfaces", surfaces, "--cloud", cloud, "--cells-out", truth_cells])
         write_if_changed(stamp, key)
     return read_json(scores)
 

@@ -113,10 +113,11 @@ void score_spaces(const TriangleMesh& model, const TriangleMesh& truth, const Tr
                                  params.thin_wall_m, opening_test(cells), scanned);
   scores.merged = merged_rooms(scores.thin, found);
   if (cells != nullptr) {
-    scores.explanation = explain(
-        {cells->complex, cells->label, cells->terms ? &*cells->terms : nullptr, truth_columns, model_columns,
-         truth_surface, rooms, finder, found, scores.thin, described.ignored, params.thin_wall_m, b},
-        scores.column_spacing_m, kColumnSeed);
+    scores.explanation =
+        explain({cells->complex, cells->label, cells->surfaces, cells->terms ? &*cells->terms : nullptr,
+                 truth_columns, model_columns, truth_surface, rooms, finder, found, scores.thin,
+                 described.ignored, params.thin_wall_m, b},
+                scores.column_spacing_m, kColumnSeed);
   }
 }
 
