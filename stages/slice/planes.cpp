@@ -119,24 +119,43 @@ SlopedPlane to_plane(const PlanarRegion& region, PlaneSide side, std::vector<Vec
 class PlaneFinder {
  public:
   PlaneFinder(const HeightSurvey& survey, double noise_m)
-      : survey_(survey),
-        voxels_(survey.voxels),
-        noise_m_(noise_m),
-        graph_(voxel_graph(voxels_)),
-        patches_(voxel_patches(voxels_, graph_, noise_m)),
-        taken_(voxels_.size(), 0) {}
+      : survey_(survey), voxels_(survey.voxels), noise_m_(noise_m), taken_(voxels_.size(), 0) {}
+
+  /// Whether anything slopes, seen without the level blocks, which most of a building's surface is.
+  bool any_slope() {
+    level_blocks(voxels_, noise_m_, taken_);
+    look_closely();
+    const std::vector<PlanarRegion> regions = grow();
+    double sloped_m2 = 0;
+    for (const PlanarRegion& region : regions) {
+      if (slopes(region, voxels_, noise_m_)) sloped_m2 += region.moments.area_m2;
+    }
+    return sloped_m2 >= kSmallest_m2;
+  }
 
   SlopedSurfaces find() {
+    taken_.assign(voxels_.size(), 0);
+    look_closely();
     find_regions();
     find_facets();
     return result();
   }
 
  private:
+  /// At the voxels that are free.
+  void look_closely() {
+    graph_ = voxel_graph(voxels_, taken_);
+    patches_ = voxel_patches(voxels_, graph_, noise_m_, taken_);
+  }
+  double apart() const { return std::max(kApart_m, 3 * noise_m_); }
+  std::vector<PlanarRegion> grow() {
+    const RegionRules rules{noise_m_, apart(), kTurned, 0, kSteepest};
+    return grow_regions(voxels_, graph_, patches_, rules, kScrap_m2, taken_);
+  }
+
   void find_regions() {
-    const RegionRules rules{noise_m_, std::max(kApart_m, 3 * noise_m_), kTurned, 0, kSteepest};
-    std::vector<PlanarRegion> regions = grow_regions(voxels_, graph_, patches_, rules, kScrap_m2, taken_);
-    settle_borders(regions, voxels_, graph_, rules.apart_m);
+    std::vector<PlanarRegion> regions = grow();
+    settle_borders(regions, voxels_, graph_, apart());
     merge_regions(regions, voxels_, noise_m_, kGentlest);
     std::vector<Kind> kinds = kinds_of(regions, voxels_, noise_m_);
     remove_drift(regions, voxels_, graph_, kinds);
@@ -204,16 +223,17 @@ class PlaneFinder {
   const HeightSurvey& survey_;
   const std::vector<SurfaceVoxel>& voxels_;
   double noise_m_;
+  std::vector<std::uint8_t> taken_;
   VoxelGraph graph_;
   std::vector<VoxelPatch> patches_;
-  std::vector<std::uint8_t> taken_;
   std::vector<PlanarRegion> planes_, levels_;
 };
 
 }  // namespace
 
 SlopedSurfaces find_planes(const HeightSurvey& survey, double noise_m) {
-  return PlaneFinder(survey, noise_m).find();
+  PlaneFinder finder(survey, noise_m);
+  return finder.any_slope() ? finder.find() : SlopedSurfaces{};
 }
 
 }  // namespace roomcut::slice

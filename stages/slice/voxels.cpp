@@ -5,8 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "stages/slice/fixed_point.h"
+#include <numeric>
 
 namespace roomcut::slice {
 namespace {
@@ -38,7 +37,7 @@ Moments to_moments(const CellEntry<VoxelSum>& entry, const VoxelSize& size) {
 
 VoxelSize voxel_size(double raster_m) {
   const double plan = raster_m * std::max(1.0, std::round(kEdge_m / raster_m));
-  return {plan, 0.5 * plan};
+  return {plan, 0.5 * plan, 1 / plan, 2 / plan};
 }
 
 VoxelSum& VoxelSum::operator+=(const VoxelSum& other) {
@@ -57,8 +56,7 @@ VoxelSum& VoxelSum::operator+=(const VoxelSum& other) {
 }
 
 void add_to_voxel(CellTable<VoxelSum>& table, const VoxelSize& size, const Vec3& point, double area_m2) {
-  const CellKey key{floor_to_int(point.x() / size.plan_m), floor_to_int(point.y() / size.plan_m),
-                    floor_to_int(point.z() / size.height_m)};
+  const CellKey key = size.at(point);
   const std::int64_t x = to_units(std::max(0.0, point.x() - key.ix * size.plan_m), kLengthUnit);
   const std::int64_t y = to_units(std::max(0.0, point.y() - key.iy * size.plan_m), kLengthUnit);
   const std::int64_t z = to_units(std::max(0.0, point.z() - key.iz * size.height_m), kLengthUnit);
@@ -75,20 +73,23 @@ std::vector<SurfaceVoxel> to_voxels(const std::vector<CellEntry<VoxelSum>>& entr
   return voxels;
 }
 
-VoxelGraph voxel_graph(const std::vector<SurfaceVoxel>& voxels) {
-  std::vector<std::vector<std::uint32_t>> rows(voxels.size());
-  tbb::parallel_for(std::size_t{0}, voxels.size(), [&](std::size_t i) {
-    for_each_near(voxels, voxels[i].key, 1, 1, [&](std::size_t j) {
-      if (j != i) rows[i].push_back(static_cast<std::uint32_t>(j));
-    });
-  });
+VoxelGraph voxel_graph(const std::vector<SurfaceVoxel>& voxels, const std::vector<std::uint8_t>& without) {
   VoxelGraph graph;
-  graph.first.reserve(voxels.size() + 1);
-  for (const auto& row : rows) {
-    graph.first.push_back(static_cast<std::uint32_t>(graph.neighbours.size()));
-    graph.neighbours.insert(graph.neighbours.end(), row.begin(), row.end());
-  }
-  graph.first.push_back(static_cast<std::uint32_t>(graph.neighbours.size()));
+  graph.first.assign(voxels.size() + 1, 0);
+  const auto for_each_row = [&](const auto& visit) {
+    tbb::parallel_for(std::size_t{0}, voxels.size(), [&](std::size_t i) {
+      if (without[i] != 0) return;
+      for_each_near(voxels, voxels[i].key, 1, 1, [&](std::size_t j) {
+        if (j != i) visit(i, j);
+      });
+    });
+  };
+  for_each_row([&](std::size_t i, std::size_t) { ++graph.first[i + 1]; });
+  std::partial_sum(graph.first.begin(), graph.first.end(), graph.first.begin());
+  graph.neighbours.resize(graph.first.back());
+  std::vector<std::uint32_t> next(graph.first.begin(), graph.first.end() - 1);
+  for_each_row(
+      [&](std::size_t i, std::size_t j) { graph.neighbours[next[i]++] = static_cast<std::uint32_t>(j); });
   return graph;
 }
 
