@@ -33,14 +33,14 @@ VoxelPatch patch_of(const std::vector<SurfaceVoxel>& voxels, const VoxelGraph& g
     }
     return sum;
   };
-  SpacePlane own = fit_plane(voxels[i].moments);
+  SpacePlane own = fit_quickly(voxels[i].moments);
   if (voxels[i].count < kFewest || !flat(own)) {
     if (voxels[i].count >= 4 * kFewest && own.rms_m > most) return {};
-    own = fit_plane(around([](const Moments&) { return true; }));
+    own = fit_quickly(around([](const Moments&) { return true; }));
     if (!flat(own)) return {};
   }
   const Moments sum = around([&](const Moments& m) { return m.square_distance(own) <= 4 * most * most; });
-  VoxelPatch patch{fit_plane(sum), sum.area_m2};
+  VoxelPatch patch{fit_quickly(sum), sum.area_m2};
   if (!flat(patch.plane)) return {};
   return patch;
 }

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace roomcut::slice {
 namespace {
@@ -57,10 +56,21 @@ VoxelSum& VoxelSum::operator+=(const VoxelSum& other) {
 
 void add_to_voxel(CellTable<VoxelSum>& table, const VoxelSize& size, const Vec3& point, double area_m2) {
   const CellKey key = size.at(point);
-  const std::int64_t x = to_units(std::max(0.0, point.x() - key.ix * size.plan_m), kLengthUnit);
-  const std::int64_t y = to_units(std::max(0.0, point.y() - key.iy * size.plan_m), kLengthUnit);
-  const std::int64_t z = to_units(std::max(0.0, point.z() - key.iz * size.height_m), kLengthUnit);
-  table.at(key) += {1, to_units(area_m2, kAreaUnit), x, y, z, x * x, x * y, x * z, y * y, y * z, z * z};
+  const std::int64_t x = to_units(point.x() - key.ix * size.plan_m, kLengthUnit);
+  const std::int64_t y = to_units(point.y() - key.iy * size.plan_m, kLengthUnit);
+  const std::int64_t z = to_units(point.z() - key.iz * size.height_m, kLengthUnit);
+  VoxelSum& sum = table.at(key);
+  ++sum.count;
+  sum.area += to_units(area_m2, kAreaUnit);
+  sum.x += x;
+  sum.y += y;
+  sum.z += z;
+  sum.xx += x * x;
+  sum.xy += x * y;
+  sum.xz += x * z;
+  sum.yy += y * y;
+  sum.yz += y * z;
+  sum.zz += z * z;
 }
 
 std::vector<SurfaceVoxel> to_voxels(const std::vector<CellEntry<VoxelSum>>& entries, const VoxelSize& size) {
@@ -74,22 +84,26 @@ std::vector<SurfaceVoxel> to_voxels(const std::vector<CellEntry<VoxelSum>>& entr
 }
 
 VoxelGraph voxel_graph(const std::vector<SurfaceVoxel>& voxels, const std::vector<std::uint8_t>& without) {
-  VoxelGraph graph;
-  graph.first.assign(voxels.size() + 1, 0);
-  const auto for_each_row = [&](const auto& visit) {
-    tbb::parallel_for(std::size_t{0}, voxels.size(), [&](std::size_t i) {
-      if (without[i] != 0) return;
+  constexpr std::size_t kPart = 4096;
+  std::vector<VoxelGraph> parts((voxels.size() + kPart - 1) / kPart);
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t p) {
+    for (std::size_t i = p * kPart; i < std::min((p + 1) * kPart, voxels.size()); ++i) {
+      parts[p].first.push_back(static_cast<std::uint32_t>(parts[p].neighbours.size()));
+      if (without[i] != 0) continue;
       for_each_near(voxels, voxels[i].key, 1, 1, [&](std::size_t j) {
-        if (j != i) visit(i, j);
+        if (j != i) parts[p].neighbours.push_back(static_cast<std::uint32_t>(j));
       });
-    });
-  };
-  for_each_row([&](std::size_t i, std::size_t) { ++graph.first[i + 1]; });
-  std::partial_sum(graph.first.begin(), graph.first.end(), graph.first.begin());
-  graph.neighbours.resize(graph.first.back());
-  std::vector<std::uint32_t> next(graph.first.begin(), graph.first.end() - 1);
-  for_each_row(
-      [&](std::size_t i, std::size_t j) { graph.neighbours[next[i]++] = static_cast<std::uint32_t>(j); });
+    }
+  });
+  VoxelGraph graph;
+  graph.first.reserve(voxels.size() + 1);
+  for (VoxelGraph& part : parts) {
+    const auto before = static_cast<std::uint32_t>(graph.neighbours.size());
+    for (const std::uint32_t first : part.first) graph.first.push_back(before + first);
+    graph.neighbours.insert(graph.neighbours.end(), part.neighbours.begin(), part.neighbours.end());
+    part = {};
+  }
+  graph.first.push_back(static_cast<std::uint32_t>(graph.neighbours.size()));
   return graph;
 }
 
