@@ -131,13 +131,23 @@ std::vector<double> start_heights(const Problem& problem, const Vec2& middle) {
   return starts;
 }
 
+/// How many times its own a variance can be that was measured on n independent patches: by chi square's lower
+/// 2.5 % (Wilson and Hilferty); below two patches, any.
+double largest_ratio(double n) {
+  const double q = 2 / (9 * n);
+  const double root = 1 - q - 1.96 * std::sqrt(q);
+  return root > 0 ? 1 / (root * root * root) : std::numeric_limits<double>::infinity();
+}
+
 /// Covariance as the building's roughness lets expect, or from the samples' own scatter in blocks of ½, 1, 2
 /// and 4 m, where that is more: neighbouring residuals resemble each other, those of large blocks don't.
 Eigen::Matrix3d covariance(const Problem& problem, const PlaneFit& fit) {
   constexpr double kFewestBlocks = 8;
   const double own = std::max(fit.unevenness_m, kTypicalUnevenness_m);
   const double together = std::clamp(problem.roughness.patches, 1.0, std::max(1.0, patches(problem.samples)));
-  const double uneven = std::sqrt(std::max(own * own, together * problem.roughness.variance_m2));
+  const double rough =
+      std::min(problem.roughness.variance_m2, own * own * largest_ratio(patches(problem.samples) / together));
+  const double uneven = std::sqrt(std::max(own * own, together * rough));
   Eigen::Matrix3d normal = prior(problem);
   Eigen::Matrix3d apart = prior(problem);  // as if each patch erred alone
   for (const Sample& s : problem.samples) {
