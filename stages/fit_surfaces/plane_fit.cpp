@@ -19,6 +19,7 @@ constexpr double kTypicalUnevenness_m = 0.001;
 constexpr double kSurface_m = 0.002;  // scale on which the best of several starts is told
 constexpr double kGradientPrior = 0.02;
 constexpr double kSmallestShare = 0.02;
+constexpr double kFlattest = 0.3;  // mean slope of the loss
 constexpr int kIterations = 50;
 constexpr int kRounds = 3;
 
@@ -30,6 +31,12 @@ double weight(double r, Loss loss) {
     return 1 / (1 + u * u);
   }
   return std::abs(u) < 1 ? (1 - u * u) * (1 - u * u) : 0;
+}
+
+/// Derivative of r · weight(r, Loss::kSharp).
+double slope(double r) {
+  const double q = r * r / (kTukey * kTukey);
+  return q < 1 ? (1 - q) * (1 - 5 * q) : 0;
 }
 
 /// Weighted median; shares as weights.
@@ -150,12 +157,18 @@ Eigen::Matrix3d covariance(const Problem& problem, const PlaneFit& fit) {
   const double uneven = std::sqrt(std::max(own * own, together * rough));
   Eigen::Matrix3d normal = prior(problem);
   Eigen::Matrix3d apart = prior(problem);  // as if each patch erred alone
+  double slopes = 0;
+  double all = 0;
   for (const Sample& s : problem.samples) {
     const Eigen::Vector3d j = jacobian(problem, fit, s);
     normal += information(s, uneven) * j * j.transpose();
     apart += information(s, own) * j * j.transpose();
+    const double r = s.z - fit.height(s.at);
+    slopes += information(s, own) * slope(r / std::sqrt(s.variance_m2 + own * own));
+    all += information(s, own);
   }
-  const Eigen::Matrix3d apart_inverse = apart.inverse();
+  // The loss answers a shift of the samples by less than squares would.
+  const Eigen::Matrix3d apart_inverse = apart.inverse() / std::clamp(slopes / all, kFlattest, 1.0);
   const Eigen::Matrix3d expected = normal.inverse();
   Eigen::Matrix3d largest = expected;
   for (const double edge : {0.5, 1.0, 2.0, 4.0}) {
