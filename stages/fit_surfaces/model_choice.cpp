@@ -89,21 +89,22 @@ Costs costs_of(std::span<const Sample> samples, const PlaneFit& level, const Pla
 }  // namespace
 
 PlaneFit fit_surface(std::span<const Sample> samples, const Vec2& middle, std::span<const Vec2> outline,
-                     bool may_tilt) {
-  const PlaneFit level = fit_level(samples, middle);
-  const PlaneFit tilted = may_tilt ? fit_tilted(samples, middle, Vec2(0, 0)) : level;
+                     const Roughness& roughness, bool may_tilt) {
+  const PlaneFit level = fit_level(samples, middle, roughness);
+  const PlaneFit tilted = may_tilt ? fit_tilted(samples, middle, roughness, Vec2(0, 0)) : level;
   const std::optional<TwoHeights> two = find_two_heights(samples);
   const Costs costs = costs_of(samples, level, tilted, two ? &*two : nullptr);
   if (may_tilt && costs.tilted < std::min(costs.level, costs.two) && is_proven(samples, outline, tilted)) {
     return tilted;
   }
-  return costs.two < std::min(costs.level, costs.tilted) ? fit_level(larger_part(samples, *two), middle)
-                                                         : level;
+  return costs.two < std::min(costs.level, costs.tilted)
+             ? fit_level(larger_part(samples, *two), middle, roughness)
+             : level;
 }
 
 bool has_two_heights(std::span<const Sample> samples, const Vec2& middle, const TwoHeights& two) {
   const Costs costs =
-      costs_of(samples, fit_level(samples, middle), fit_tilted(samples, middle, Vec2(0, 0)), &two);
+      costs_of(samples, fit_level(samples, middle, {}), fit_tilted(samples, middle, {}, Vec2(0, 0)), &two);
   return costs.two < std::min(costs.level, costs.tilted);
 }
 

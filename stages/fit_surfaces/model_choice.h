@@ -13,7 +13,7 @@ namespace roomcut::fit_surfaces {
 /// samples reach over most of what it is to hold for. Where the samples lie at two heights, the surface is
 /// level at that with more area. `outline`: corners of the region. At least one sample.
 PlaneFit fit_surface(std::span<const Sample> samples, const Vec2& middle, std::span<const Vec2> outline,
-                     bool may_tilt);
+                     const Roughness& roughness, bool may_tilt);
 
 /// Whether two level surfaces explain the samples better than one, level or tilted.
 bool has_two_heights(std::span<const Sample> samples, const Vec2& middle, const TwoHeights& two);

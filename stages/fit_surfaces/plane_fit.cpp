@@ -19,6 +19,7 @@ constexpr double kTypicalUnevenness_m = 0.001;
 constexpr double kSurface_m = 0.002;  // scale on which the best of several starts is told
 constexpr double kGradientPrior = 0.02;
 constexpr double kSmallestShare = 0.02;
+constexpr double kFlattest = 0.3;  // mean slope of the loss
 constexpr int kIterations = 50;
 constexpr int kRounds = 3;
 
@@ -30,6 +31,12 @@ double weight(double r, Loss loss) {
     return 1 / (1 + u * u);
   }
   return std::abs(u) < 1 ? (1 - u * u) * (1 - u * u) : 0;
+}
+
+/// Derivative of r · weight(r, Loss::kSharp).
+double slope(double r) {
+  const double q = r * r / (kTukey * kTukey);
+  return q < 1 ? (1 - q) * (1 - 5 * q) : 0;
 }
 
 /// Weighted median; shares as weights.
@@ -51,6 +58,7 @@ double median(std::vector<std::pair<double, double>> values) {
 
 struct Problem {
   std::span<const Sample> samples;
+  Roughness roughness;
   bool tilts = false;
   Vec2 expected{0, 0};
 };
@@ -130,29 +138,48 @@ std::vector<double> start_heights(const Problem& problem, const Vec2& middle) {
   return starts;
 }
 
-/// Covariance from the samples' own scatter, in blocks of one patch, 1, 2 and 4 m: neighbouring residuals
-/// resemble each other, and blocks larger than that don't. The largest counts, and no less than the
-/// variances of the samples let expect.
+/// How many times its own a variance can be that was measured on n independent patches: by chi square's lower
+/// 2.5 % (Wilson and Hilferty); below two patches, any.
+double largest_ratio(double n) {
+  const double q = 2 / (9 * n);
+  const double root = 1 - q - 1.96 * std::sqrt(q);
+  return root > 0 ? 1 / (root * root * root) : std::numeric_limits<double>::infinity();
+}
+
+/// Covariance as the building's roughness lets expect, or from the samples' own scatter in blocks of ½, 1, 2
+/// and 4 m, where that is more: neighbouring residuals resemble each other, those of large blocks don't.
 Eigen::Matrix3d covariance(const Problem& problem, const PlaneFit& fit) {
   constexpr double kFewestBlocks = 8;
-  const double uneven = std::max(fit.unevenness_m, kTypicalUnevenness_m);
+  const double own = std::max(fit.unevenness_m, kTypicalUnevenness_m);
+  const double together = std::clamp(problem.roughness.patches, 1.0, std::max(1.0, patches(problem.samples)));
+  const double rough =
+      std::min(problem.roughness.variance_m2, own * own * largest_ratio(patches(problem.samples) / together));
+  const double uneven = std::sqrt(std::max(own * own, together * rough));
   Eigen::Matrix3d normal = prior(problem);
+  Eigen::Matrix3d apart = prior(problem);  // as if each patch erred alone
+  double slopes = 0;
+  double all = 0;
   for (const Sample& s : problem.samples) {
     const Eigen::Vector3d j = jacobian(problem, fit, s);
     normal += information(s, uneven) * j * j.transpose();
+    apart += information(s, own) * j * j.transpose();
+    const double r = s.z - fit.height(s.at);
+    slopes += information(s, own) * slope(r / std::sqrt(s.variance_m2 + own * own));
+    all += information(s, own);
   }
+  // The loss answers a shift of the samples by less than squares would.
+  const Eigen::Matrix3d apart_inverse = apart.inverse() / std::clamp(slopes / all, kFlattest, 1.0);
   const Eigen::Matrix3d expected = normal.inverse();
   Eigen::Matrix3d largest = expected;
   for (const double edge : {0.5, 1.0, 2.0, 4.0}) {
     std::map<std::pair<long, long>, Eigen::Vector3d> scores;
     for (const Sample& s : problem.samples) {
       const double r = s.z - fit.height(s.at);
-      const double sigma = std::sqrt(s.variance_m2 + uneven * uneven);
+      const double sigma = std::sqrt(s.variance_m2 + own * own);
       const auto block =
           std::pair{std::lround(std::floor(s.at.x() / edge)), std::lround(std::floor(s.at.y() / edge))};
       const auto found = scores.try_emplace(block, Eigen::Vector3d::Zero()).first;
-      found->second +=
-          information(s, uneven) * weight(r / sigma, Loss::kSharp) * r * jacobian(problem, fit, s);
+      found->second += information(s, own) * weight(r / sigma, Loss::kSharp) * r * jacobian(problem, fit, s);
     }
     const double blocks = static_cast<double>(scores.size());
     if (blocks < kFewestBlocks) {
@@ -164,7 +191,7 @@ Eigen::Matrix3d covariance(const Problem& problem, const PlaneFit& fit) {
     }
     const double parameters = problem.tilts ? 3 : 1;
     const double few = blocks / (blocks - parameters) * (1 + 2 / blocks);  // as Student's t
-    const Eigen::Matrix3d measured = few * expected * middle * expected;
+    const Eigen::Matrix3d measured = few * apart_inverse * middle * apart_inverse;
     if ((measured - largest).trace() > 0 || measured(0, 0) > largest(0, 0)) {
       // Each parameter's larger variance; correlations are those of the larger height.
       Eigen::Matrix3d joined = measured(0, 0) > largest(0, 0) ? measured : largest;
@@ -242,12 +269,13 @@ double patches(std::span<const Sample> samples) {
   return sum;
 }
 
-PlaneFit fit_level(std::span<const Sample> samples, const Vec2& middle) {
-  return fit_plane({samples, false, Vec2(0, 0)}, middle);
+PlaneFit fit_level(std::span<const Sample> samples, const Vec2& middle, const Roughness& roughness) {
+  return fit_plane({samples, roughness, false, Vec2(0, 0)}, middle);
 }
 
-PlaneFit fit_tilted(std::span<const Sample> samples, const Vec2& middle, const Vec2& expected) {
-  return fit_plane({samples, true, expected}, middle);
+PlaneFit fit_tilted(std::span<const Sample> samples, const Vec2& middle, const Roughness& roughness,
+                    const Vec2& expected) {
+  return fit_plane({samples, roughness, true, expected}, middle);
 }
 
 }  // namespace roomcut::fit_surfaces

@@ -18,6 +18,12 @@ struct Sample {
   double share = 1;        ///< of a whole patch that it is, 0 … 1: how much it counts
 };
 
+/// How patches of floor err beyond their own variances, and how far they err alike.
+struct Roughness {
+  double variance_m2 = 0;
+  double patches = 1;  ///< that err as one
+};
+
 /// A plane fitted to samples: height z + gradient · (p - middle).
 struct PlaneFit {
   Vec2 middle{0, 0};
@@ -31,12 +37,14 @@ struct PlaneFit {
 };
 
 /// Level surface through the samples (at least one): Tukey's biweight from several starts, so that of two
-/// heights it lies on the one with more area, never between. `middle` is where its height is asked for.
-PlaneFit fit_level(std::span<const Sample> samples, const Vec2& middle);
+/// heights it lies on the one with more area, never between. `middle` is where its height is asked for;
+/// `roughness` says how sure that is.
+PlaneFit fit_level(std::span<const Sample> samples, const Vec2& middle, const Roughness& roughness);
 
 /// Tilted plane through the samples, likewise; `expected` is what its gradient is where the samples don't
 /// tell, to within 0.02.
-PlaneFit fit_tilted(std::span<const Sample> samples, const Vec2& middle, const Vec2& expected);
+PlaneFit fit_tilted(std::span<const Sample> samples, const Vec2& middle, const Roughness& roughness,
+                    const Vec2& expected);
 
 /// Sum over the samples of their squared distance from what `off` gives for each, in standard deviations
 /// with `unevenness_m`, truncated: what costs more is another surface.
