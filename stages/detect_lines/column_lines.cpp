@@ -12,15 +12,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kSigmas = 3;
 constexpr double kLargestTurn = 2.5 * kPi / 180;
-constexpr double kGap_m = 10;           // columns farther apart are no row
 constexpr double kSmallRound_m = 0.25;  // a circle of a smaller radius has 8 chords, a larger one 12
-
-/// One side of one column.
-struct Side {
-  Line2 line;
-  Support support;
-  std::string column;
-};
 
 /// "c0001" of 0.
 std::string column_name(std::size_t index) {
@@ -40,15 +32,15 @@ double sigma_of(const WallCells& cells, const Column& column, const OutlineRules
   return weight > 0 ? std::sqrt(sum / weight / static_cast<double>(column.cells.size())) / lever : 0;
 }
 
-void turn_to_walls(const WallCells& cells, const ColumnLineRules& rules, Column& column) {
+void turn_to_walls(const WallCells& cells, double theta, const OutlineRules& fit, Column& column) {
   Outline& outline = column.outline;
   if (outline.round) return;
-  const double off = std::remainder(rules.theta - outline.theta, kPi / 2);
-  if (std::abs(off) > std::min(kLargestTurn, kSigmas * sigma_of(cells, column, rules.fit))) return;
-  const double quarters = std::round((outline.theta + off - rules.theta) / (kPi / 2));
-  outline.theta = rules.theta;
+  const double off = std::remainder(theta - outline.theta, kPi / 2);
+  if (std::abs(off) > std::min(kLargestTurn, kSigmas * sigma_of(cells, column, fit))) return;
+  const double quarters = std::round((outline.theta + off - theta) / (kPi / 2));
+  outline.theta = theta;
   if (std::fmod(std::abs(quarters), 2.0) > 0.5) std::swap(outline.half[0], outline.half[1]);
-  outline = fit_same(cells, column.cells, outline, rules.fit).outline;
+  outline = fit_same(cells, column.cells, outline, fit).outline;
 }
 
 /// The polygon's sides: direction of the outward normal, and distance from the centre.
@@ -92,57 +84,12 @@ std::vector<Side> all_sides(const WallCells& cells, const std::vector<Column>& c
   return all;
 }
 
-/// Gives sides [begin, end), of one line's direction, their mean, and joins those that follow each other.
-void add_row(std::vector<Side>::iterator begin, std::vector<Side>::iterator end,
-             std::vector<LineCandidate>& lines) {
-  double sum = 0, weight = 0;
-  for (auto side = begin; side != end; ++side) {
-    sum += side->support.support_m * side->line.d;
-    weight += side->support.support_m;
-  }
-  std::sort(begin, end, [](const Side& a, const Side& b) { return a.support.t0 < b.support.t0; });
-  const std::size_t first = lines.size();
-  for (auto side = begin; side != end; ++side) {
-    const bool joins = lines.size() > first && side->support.t0 - lines.back().support.t1 < kGap_m;
-    if (!joins) {
-      lines.push_back(
-          {{side->line.theta, weight > 0 ? sum / weight : side->line.d}, side->support, side->column});
-      continue;
-    }
-    LineCandidate& line = lines.back();
-    line.support.t1 = std::max(line.support.t1, side->support.t1);
-    line.support.support_m += side->support.support_m;
-    line.support.cells.insert(line.support.cells.end(), side->support.cells.begin(),
-                              side->support.cells.end());
-    line.column += " " + side->column;
-  }
-}
-
 }  // namespace
 
-std::vector<LineCandidate> lines_of_columns(const WallCells& cells, std::vector<Column> columns,
-                                            const ColumnLineRules& rules) {
-  for (Column& column : columns) turn_to_walls(cells, rules, column);
-  std::vector<Side> sides = all_sides(cells, columns, rules.theta);
-  constexpr double kSameAngle = 1e-9;
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::make_tuple(std::round(a.line.theta / kSameAngle), a.line.d, a.support.t0) <
-           std::make_tuple(std::round(b.line.theta / kSameAngle), b.line.d, b.support.t0);
-  });
-  std::vector<LineCandidate> lines;
-  for (auto begin = sides.begin(); begin != sides.end();) {
-    const auto end = std::find_if(begin, sides.end(), [&](const Side& side) {
-      return std::abs(side.line.theta - begin->line.theta) > kSameAngle ||
-             side.line.d - begin->line.d > rules.aligned_m;
-    });
-    const auto next = end;
-    add_row(begin, end, lines);
-    begin = next;
-  }
-  std::stable_sort(lines.begin(), lines.end(), [](const LineCandidate& a, const LineCandidate& b) {
-    return a.support.support_m > b.support.support_m;
-  });
-  return lines;
+std::vector<Side> sides_of_columns(const WallCells& cells, std::vector<Column> columns, double theta,
+                                   const OutlineRules& fit) {
+  for (Column& column : columns) turn_to_walls(cells, theta, fit, column);
+  return all_sides(cells, columns, theta);
 }
 
 }  // namespace roomcut::detect_lines

@@ -12,6 +12,7 @@
 #include "common/geometry/preferred_number.h"
 #include "stages/detect_lines/column_lines.h"
 #include "stages/detect_lines/free_cells.h"
+#include "stages/detect_lines/jogs.h"
 #include "stages/detect_lines/mean_shift.h"
 #include "stages/detect_lines/merge_lines.h"
 
@@ -222,6 +223,34 @@ double direction_of(const std::vector<LineCandidate>& lines, double main) {
   return weight > 0 ? main + sum / weight : main;
 }
 
+CellIndices cells_of_no_line(const WallCells& cells, const std::vector<Column>& columns,
+                             const std::vector<LineCandidate>& lines) {
+  std::vector<bool> taken(cells.size(), false);
+  for (const Column& column : columns) {
+    for (const std::uint32_t i : column.cells) taken[i] = true;
+  }
+  for (const LineCandidate& line : lines) {
+    for (const std::uint32_t i : line.support.cells) taken[i] = true;
+  }
+  CellIndices free;
+  for (std::uint32_t i = 0; i < cells.size(); ++i) {
+    if (!taken[i]) free.push_back(i);
+  }
+  return free;
+}
+
+/// Adds the sides of columns, niches and pilasters to the lines.
+void add_short_lines(const Slices& slices, const WallCells& cells, const std::vector<Column>& columns,
+                     const Rules& rules, std::vector<LineCandidate>& lines) {
+  const double theta = direction_of(lines, main_direction(cells));
+  std::vector<Side> sides = sides_of_columns(cells, columns, theta, column_fit(slices));
+  const CellIndices free = cells_of_no_line(cells, columns, lines);
+  const PieceRules pieces{slices.tau_m, slices.noise_m, rules.fit.inlier_m};
+  for (Side& side : short_sides(cells, free, lines, pieces)) sides.push_back(std::move(side));
+  const double aligned_m = std::max(0.004, 0.6 * slices.noise_m);
+  for (LineCandidate& line : align_sides(std::move(sides), aligned_m)) lines.push_back(std::move(line));
+}
+
 WallLine to_wall_line(const LineCandidate& candidate, const WallCells& cells, std::size_t index) {
   const std::string number = std::to_string(index + 1);
   const FitQuality fit = quality(cells, candidate.support.cells, candidate.line);
@@ -280,9 +309,7 @@ DetectLinesResult detect_lines(const Slices& slices, const DetectLinesParams& pa
   found = merge_near_duplicates(cells, std::move(found), rules.merge, rules.fit);
   result.merged = before - found.size();
   if (found.empty()) no_lines(cells, params);
-  const ColumnLineRules column_rules{direction_of(found, main_direction(cells)),
-                                     std::max(0.004, 0.6 * slices.noise_m), column_fit(slices)};
-  for (LineCandidate& side : lines_of_columns(cells, columns, column_rules)) found.push_back(std::move(side));
+  add_short_lines(slices, cells, columns, rules, found);
 
   result.lines.frame = slices.frame;
   result.lines.bbox_min = slices.bbox_min.head<2>();
