@@ -233,8 +233,8 @@ TEST(TrueSurfaces, WhereTheModelWouldTouchItselfOnlyWhatIsBesideGoesBack) {
   house.set(true, plane({0, 0}, 0, kFloor + 0.2), [](const Vec2& p) { return p.x() < 2 && p.y() > 2.5; });
   const Model model = house.model();
   EXPECT_EQ(model.fault, "");
-  EXPECT_NEAR(model.put_back_m2, 3, 1e-9);
-  EXPECT_NEAR(model.empty_m3, 12 * 2.5 - 1.5 * 0.2, 1e-9);
+  EXPECT_NEAR(model.put_back_m2, 1.5, 1e-9);
+  EXPECT_NEAR(model.empty_m3, 12 * 2.5 - 1.5 * 0.1 - 1.5 * 0.2, 1e-9);
 }
 
 }  // namespace
