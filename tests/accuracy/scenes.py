@@ -28,12 +28,13 @@ GROUPS = {
     "handheld": {"noise_m": 0.005, "handheld": {"warp_m": 0.02, "correlation_m": 1, "rounding_m": 0.05}},
     "closed": {"noise_m": 0.005, "clutter_per_m2": 0, "random": {"doors": False, "shafts": False}},
     "roofs": {"noise_m": 0.005, "random": {"elements": ["roof", "ramps"]}},
+    "round": {"noise_m": 0.005, "random": {"elements": ["arcs"]}},
     "heights": {"noise_m": 0.005, "random": {"elements": ["heights"]}},
     "columns": {"noise_m": 0.005, "random": {"elements": ["columns"]}},
     "niches": {"noise_m": 0.005, "random": {"elements": ["niches"]}},
 }
 # Groups of some families only, and as dense as the scanners that they stand for, whatever the building's size [points per m^2].
-FAMILIES_OF = {"handheld": ("office", "oblique", "house"), "roofs": ("house", "oblique"), "heights": ("office",), "columns": ("office",), "niches": ("office",)}
+FAMILIES_OF = {"handheld": ("office", "oblique", "house"), "roofs": ("house", "oblique"), "round": ("office",), "heights": ("office",), "columns": ("office",), "niches": ("office",)}
 DENSITIES = {"handheld": 300}
 # Buildings that try the mesh, not the accuracy: small scans, half of them from tripods, at three levels of detail; only when asked for.
 RANDOM_SEEDS = range(101, 151)

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "common/random/counter_random.h"
+#include "stages/tools/synthesize/arc_elements.h"
 #include "stages/tools/synthesize/column.h"
 #include "stages/tools/synthesize/plan.h"
 #include "stages/tools/synthesize/room_heights.h"
@@ -23,14 +24,17 @@ constexpr double kThroughWall = 0.3;      // a doorway's box ends within this of
 constexpr double kColumnClearance = 0.8;  // from walls, doorways and shafts [m]
 constexpr double kNicheClearance = 0.25;  // from corners, doorways, windows and other niches [m]
 
-/// The direction of the polygon's longest side.
-Vec2 main_direction(const Polygon2& polygon) {
+Vec2 longest_side(const Polygon2& polygon) {
   Vec2 longest(0, 0);
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec2 side = polygon[(i + 1) % polygon.size()] - polygon[i];
     if (side.norm() > longest.norm() + 1e-9) longest = side;
   }
-  return longest.normalized();
+  return longest;
+}
+
+Vec2 main_direction(const Polygon2& polygon) {
+  return longest_side(polygon).normalized();
 }
 
 /// Least and greatest coordinate along a direction.
@@ -47,6 +51,9 @@ class ElementMaker {
   ElementMaker(std::uint64_t seed, std::uint64_t stream, Scene& scene)
       : seed_(seed), stream_(0x656c6500 + stream), scene_(scene) {}
 
+  void add_arcs() {
+    synthesize::add_arcs(scene_, [this] { return draw(); });
+  }
   void add_roof();
   void add_ramps();
   void add_heights();
@@ -72,13 +79,14 @@ class ElementMaker {
 void ElementMaker::add_roof() {
   const int top = static_cast<int>(scene_.storeys.size()) - 1;
   Polygon2 footprint;
+  Vec2 along(0, 0);
   double floor = 1e300;
   for (const SceneRoom& room : scene_.rooms) {
     if (room.storey != top) continue;
+    if (longest_side(room.polygon).norm() > along.norm() + 1e-6) along = longest_side(room.polygon);
     footprint.insert(footprint.end(), room.polygon.begin(), room.polygon.end());
     floor = std::min(floor, room.floor);
   }
-  const Vec2 along = main_direction(scene_.rooms.back().polygon);
   const double turn = std::atan2(along.y(), along.x()) + (chance(0.5) ? std::numbers::pi / 2 : 0);
   const auto kind = static_cast<RoofKind>(static_cast<int>(draw(0, 3)));
   const Vec2 falls(std::cos(turn), std::sin(turn));
@@ -286,11 +294,10 @@ struct Element {
   const char* name;
   void (ElementMaker::*add)();
 };
-constexpr Element kElements[] = {{"heights", &ElementMaker::add_heights},
-                                 {"roof", &ElementMaker::add_roof},
-                                 {"ramps", &ElementMaker::add_ramps},
-                                 {"columns", &ElementMaker::add_columns},
-                                 {"niches", &ElementMaker::add_niches}};
+constexpr Element kElements[] = {
+    {"heights", &ElementMaker::add_heights}, {"arcs", &ElementMaker::add_arcs},
+    {"roof", &ElementMaker::add_roof},       {"ramps", &ElementMaker::add_ramps},
+    {"columns", &ElementMaker::add_columns}, {"niches", &ElementMaker::add_niches}};
 
 }  // namespace
 

@@ -13,6 +13,7 @@ namespace roomcut::synthesize {
 const std::vector<std::string>& element_names();
 
 /// Adds elements to the rooms of `scene`, a random building, and fits its doors, windows and shafts to them:
+/// - "arcs": bays, rounded corners, round towers (arc_elements.h);
 /// - "roof": one roof (monopitch, gable or hip) over the top storey, with or without a knee wall or collar;
 /// - "ramps": sloped floors, and ramps up to a platform, in some rooms;
 /// - "heights": every room's floor and ceiling are off the storey's by 0, 1, 2 or 3 cm;

@@ -62,12 +62,15 @@ class TruthTables {
            {"room", room < 0 ? json(nullptr) : json(first_room_ + static_cast<std::uint64_t>(room))}});
     }
     for (const Wall& wall : walls_) add_wall(wall);
-    for (std::size_t i = 0; i < scene_.rooms.size(); ++i) add_columns(i);
+    for (std::size_t i = 0; i < scene_.rooms.size(); ++i) {
+      add_columns(i);
+      add_arcs(i);
+    }
     for (const PlacedNiche& niche : building_.niches) add_niche(niche);
   }
 
   json rooms = json::array(), doors = json::array(), windows = json::array(), stations = json::array(),
-       walls = json::array(), columns = json::array(), niches = json::array();
+       walls = json::array(), columns = json::array(), arcs = json::array(), niches = json::array();
 
  private:
   Vec2 moved(const Vec2& p) const { return p + offset_.head<2>(); }
@@ -108,6 +111,20 @@ class TruthTables {
                          {"polygon", moved(column.polygon)},
                          {"z0", rounded(floor_at(room, column.centre) + offset_.z())},
                          {"z1", rounded(ceiling_at(room, column.centre) + offset_.z())}});
+    }
+  }
+
+  void add_arcs(std::size_t index) {
+    const SceneRoom& room = scene_.rooms[index];
+    for (const SceneArc& arc : room.arcs) {
+      arcs.push_back({{"room", first_room_ + index},
+                      {"center", point(moved(arc.centre))},
+                      {"radius", rounded(arc.radius)},
+                      {"from", point(moved(arc.from))},
+                      {"to", point(moved(arc.to))},
+                      {"bulges", arc.bulges},
+                      {"z0", rounded(room.floor + offset_.z())},
+                      {"z1", rounded(room.ceiling + offset_.z())}});
     }
   }
 
@@ -174,6 +191,7 @@ json truth_json(const Scene& scene, const Building& building, const TriangleMesh
           {"walls", tables.walls},
           {"columns", tables.columns},
           {"niches", tables.niches},
+          {"arcs", tables.arcs},
           {"stations", scene.sampling.kind == SamplingKind::kTripod ? tables.stations : json::array()}};
 }
 
