@@ -56,6 +56,7 @@ class Choice(unittest.TestCase):
         self.assertEqual(self.names("uniform_house_1"), ["uniform_house_1"])
         self.assertEqual(self.names("random_thin_101*"), [f"random_thin_101_mu{mu}" for mu in scenes.RANDOM_MU_M])
         self.assertEqual(len(self.names("random")), 900)
+        self.assertEqual(len(self.names("random_elements")), 900)
         self.assertEqual(self.names("noise_*_curved_1, uniform_house_3"), ["uniform_house_3", "noise_1cm_curved_1", "noise_2cm_curved_1"])
 
     def test_a_word_that_names_nothing_is_an_error(self):

@@ -57,6 +57,7 @@ class ElementMaker {
   void add_roof();
   void add_ramps();
   void add_heights();
+  void add_beams();
   void add_columns();
   void add_niches();
 
@@ -156,6 +157,30 @@ void ElementMaker::add_heights() {
   for (SceneRoom& room : scene_.rooms) {
     room.floor += off();
     room.ceiling += off();
+  }
+}
+
+/// Under level ceilings that are high enough.
+void ElementMaker::add_beams() {
+  for (std::size_t r = 0; r < scene_.rooms.size(); ++r) {
+    SceneRoom& room = scene_.rooms[r];
+    const double depth = draw(0.15, 0.4);
+    const double width = draw(0.2, 0.4);
+    const int count = static_cast<int>(draw(1, 4));
+    const bool stairwell = std::any_of(scene_.shafts.begin(), scene_.shafts.end(),
+                                       [&](const SceneShaft& s) { return s.lower == static_cast<int>(r); });
+    if (!chance(0.5) || stairwell || !room.level_ceiling || room.ceiling - room.floor - depth < 2.2) continue;
+    const Vec2 u = main_direction(room.polygon);
+    const Vec2 v(-u.y(), u.x());
+    const auto [u0, u1] = reach(room.polygon, u);
+    const auto [v0, v1] = reach(room.polygon, v);
+    for (int i = 1; i <= count; ++i) {
+      const Vec2 a = (u0 + i * (u1 - u0) / (count + 1) - width / 2) * u;
+      const Vec2 b = a + width * u;
+      const Vec2 near = (v0 - 1) * v;
+      const Vec2 far = (v1 + 1) * v;
+      room.slopes.push_back({true, {0, 0}, room.ceiling - depth, {a + near, b + near, b + far, a + far}});
+    }
   }
 }
 
@@ -297,7 +322,8 @@ struct Element {
 constexpr Element kElements[] = {
     {"heights", &ElementMaker::add_heights}, {"arcs", &ElementMaker::add_arcs},
     {"roof", &ElementMaker::add_roof},       {"ramps", &ElementMaker::add_ramps},
-    {"columns", &ElementMaker::add_columns}, {"niches", &ElementMaker::add_niches}};
+    {"beams", &ElementMaker::add_beams},     {"columns", &ElementMaker::add_columns},
+    {"niches", &ElementMaker::add_niches}};
 
 }  // namespace
 
