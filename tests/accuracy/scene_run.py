@@ -159,8 +159,19 @@ def row_of(scores, truth, cells_m3):
             "unentered_m3": unentered["volume_m3"], **{f"unentered_{answer}": unentered[answer] for answer in ("found", "unknown", "denied")},
             "merged": rooms.get("merged", 0), "thin_kept": thin.get("walls_kept"), "walls": scores["walls_within_1deg_2cm"],
             "walls_loose": scores["walls_within_1_5deg_4cm"],
-            "horizontals": scores["horizontals_within_1deg_2cm"],
+            "horizontals": scores["horizontals_within_1deg_2cm"], "horizontals_fine": scores["horizontals_within_1deg_5mm"],
+            "elements": elements_of(scores),
             "hausdorff_pct": scores["distance"]["symmetric"]["hausdorff_pct"], **explained(scores, mesh, volume, cells_m3)}
+
+
+def elements_of(scores):
+    """Of slopes, columns and niches; counts and areas, so that a group's shares are those of all its buildings together."""
+    volume, slopes, columns, niches = scores["volume"] or {}, scores["slopes"], scores["columns"] or {}, scores["niches"]
+    return {"volume_error": share(volume.get("model_m3", 0.0) - volume["truth_m3"], volume["truth_m3"]) if volume else None,
+            "slopes_m2": slopes["area_m2"], "angle_deg": slopes["angle_median_deg"], "angle_p95_deg": slopes["angle_p95_deg"],
+            "slopes_close": slopes["within_1deg_2cm"], "columns": columns.get("truth", 0), "columns_found": columns.get("found", 0),
+            "columns_false": columns.get("false", 0), "floor_m2": columns.get("floor_m2", 0.0), "niches": niches["truth"],
+            "niches_m2": niches["area_m2"], "niches_near_m2": niches["area_m2"] * (niches["within_2cm"] or 0.0)}
 
 
 def explained(scores, mesh, volume, cells_m3):

@@ -17,7 +17,7 @@ using namespace roomcut::evaluate;
 StageInfo info() {
   StageInfo stage;
   stage.name = "evaluate";
-  stage.revision = 2;
+  stage.revision = 3;
   stage.summary = "Scores a model against a truth mesh";
   stage.inputs = {
       {"model", "Mesh to judge: PLY, OFF or OBJ"},

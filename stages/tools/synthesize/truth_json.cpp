@@ -62,10 +62,15 @@ class TruthTables {
            {"room", room < 0 ? json(nullptr) : json(first_room_ + static_cast<std::uint64_t>(room))}});
     }
     for (const Wall& wall : walls_) add_wall(wall);
+    for (std::size_t i = 0; i < scene_.rooms.size(); ++i) {
+      add_columns(i);
+      add_arcs(i);
+    }
+    for (const PlacedNiche& niche : building_.niches) add_niche(niche);
   }
 
   json rooms = json::array(), doors = json::array(), windows = json::array(), stations = json::array(),
-       walls = json::array();
+       walls = json::array(), columns = json::array(), arcs = json::array(), niches = json::array();
 
  private:
   Vec2 moved(const Vec2& p) const { return p + offset_.head<2>(); }
@@ -73,8 +78,6 @@ class TruthTables {
   void add_rooms() {
     for (std::size_t i = 0; i < scene_.rooms.size(); ++i) {
       const SceneRoom& room = scene_.rooms[i];
-      json polygon = json::array();
-      for (const Vec2& p : room.polygon) polygon.push_back(point(moved(p)));
       const Vec2 inside = innermost_point(room.polygon);
       const double middle = 0.5 * (floor_at(room, inside) + ceiling_at(room, inside));
       rooms.push_back({{"id", first_room_ + i},
@@ -87,8 +90,52 @@ class TruthTables {
                        {"volume", rounded(room_volume(room))},
                        {"center", point(Vec3(Vec3(inside.x(), inside.y(), middle) + offset_))},
                        {"scanned", room.scanned},
-                       {"polygon", polygon}});
+                       {"polygon", moved(room.polygon)}});
     }
+  }
+
+  json moved(const Polygon2& polygon) const {
+    json corners = json::array();
+    for (const Vec2& p : polygon) corners.push_back(point(moved(p)));
+    return corners;
+  }
+
+  void add_columns(std::size_t index) {
+    const SceneRoom& room = scene_.rooms[index];
+    for (const SceneColumn& column : room.columns) {
+      columns.push_back({{"room", first_room_ + index},
+                         {"shape", column.round ? "round" : "rectangular"},
+                         {"center", point(moved(column.centre))},
+                         {"width", rounded(column.size_x)},
+                         {"depth", rounded(column.size_y)},
+                         {"polygon", moved(column.polygon)},
+                         {"z0", rounded(floor_at(room, column.centre) + offset_.z())},
+                         {"z1", rounded(ceiling_at(room, column.centre) + offset_.z())}});
+    }
+  }
+
+  void add_arcs(std::size_t index) {
+    const SceneRoom& room = scene_.rooms[index];
+    for (const SceneArc& arc : room.arcs) {
+      arcs.push_back({{"room", first_room_ + index},
+                      {"center", point(moved(arc.centre))},
+                      {"radius", rounded(arc.radius)},
+                      {"from", point(moved(arc.from))},
+                      {"to", point(moved(arc.to))},
+                      {"bulges", arc.bulges},
+                      {"z0", rounded(room.floor + offset_.z())},
+                      {"z1", rounded(room.ceiling + offset_.z())}});
+    }
+  }
+
+  void add_niche(const PlacedNiche& niche) {
+    niches.push_back({{"room", first_room_ + static_cast<std::uint64_t>(niche.room)},
+                      {"pilaster", niche.solid},
+                      {"width", rounded(niche.width)},
+                      {"depth", rounded(niche.depth)},
+                      {"polygon", moved(niche.polygon)},
+                      {"z0", rounded(niche.z0 + offset_.z())},
+                      {"z1", rounded(niche.z1 + offset_.z())}});
   }
 
   json opening(const WallOpening& o) const {
@@ -142,6 +189,9 @@ json truth_json(const Scene& scene, const Building& building, const TriangleMesh
           {"doors", tables.doors},
           {"windows", tables.windows},
           {"walls", tables.walls},
+          {"columns", tables.columns},
+          {"niches", tables.niches},
+          {"arcs", tables.arcs},
           {"stations", scene.sampling.kind == SamplingKind::kTripod ? tables.stations : json::array()}};
 }
 
