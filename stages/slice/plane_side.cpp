@@ -17,14 +17,19 @@ constexpr double kOwn_m = 0.12;    ///< nearer surfaces are the region's own
 constexpr double kSurface = 0.25;  ///< share of a voxel's plan that makes a surface, not a scrap
 constexpr double kNothing = std::numeric_limits<double>::infinity();
 
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+double quantile(std::vector<double>& values, std::size_t percent) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() * percent / 100);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 
-/// Distances to the next surface above and below, medians over the region's columns.
-std::pair<double, double> next_surfaces(const PlanarRegion& region, const HeightSurvey& survey) {
+/// Distances to the next surface above and below: medians over the region's columns.
+struct NextSurfaces {
+  double above_m = 0, below_m = 0;
+  double lowest_m = 0;  ///< above what is below where it comes nearest to that: of a tenth of the columns
+};
+
+NextSurfaces next_surfaces(const PlanarRegion& region, const HeightSurvey& survey) {
   std::vector<double> above, below;
   const double least = kSurface * survey.voxel.plan_m * survey.voxel.plan_m;
   for (const std::uint32_t i : region.voxels) {
@@ -42,7 +47,7 @@ std::pair<double, double> next_surfaces(const PlanarRegion& region, const Height
     above.push_back(up);
     below.push_back(down);
   }
-  return {median(above), median(below)};
+  return {quantile(above, 50), quantile(below, 50), quantile(below, 10)};
 }
 
 /// Upright surface in the half metre over and under the region.
@@ -78,7 +83,7 @@ Walls walls_beside(const PlanarRegion& region, const HeightSurvey& survey) {
 
 PlaneSide side_of(const PlanarRegion& region, const HeightSurvey& survey) {
   constexpr double kWalled = 0.1;
-  const auto [up, down] = next_surfaces(region, survey);
+  const auto [up, down, lowest] = next_surfaces(region, survey);
   const bool open_up = up == kNothing;
   const bool open_down = down == kNothing;
   const auto ceiling_if = [](bool ceiling) { return ceiling ? PlaneSide::kCeiling : PlaneSide::kFloor; };
@@ -86,7 +91,8 @@ PlaneSide side_of(const PlanarRegion& region, const HeightSurvey& survey) {
   if (open_down && !open_up) return ceiling_if(up < kSlab_m);
   if (!open_up && (up < kSlab_m) != (down < kSlab_m)) return ceiling_if(up < kSlab_m);
   const Walls walls = walls_beside(region, survey);
-  if (!open_up && up >= kSlab_m && walls.share < kWalled) return PlaneSide::kClutter;
+  const bool hovers = !open_up && up >= kSlab_m && lowest >= kSlab_m;
+  if (hovers && walls.share < kWalled) return PlaneSide::kClutter;
   return ceiling_if(walls.hanging_m2 >= walls.standing_m2);
 }
 
