@@ -17,19 +17,14 @@ constexpr double kOwn_m = 0.12;    ///< nearer surfaces are the region's own
 constexpr double kSurface = 0.25;  ///< share of a voxel's plan that makes a surface, not a scrap
 constexpr double kNothing = std::numeric_limits<double>::infinity();
 
-double quantile(std::vector<double>& values, std::size_t percent) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() * percent / 100);
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 
-/// Distances to the next surface above and below: medians over the region's columns.
-struct NextSurfaces {
-  double above_m = 0, below_m = 0;
-  double lowest_m = 0;  ///< above what is below where it comes nearest to that: of a tenth of the columns
-};
-
-NextSurfaces next_surfaces(const PlanarRegion& region, const HeightSurvey& survey) {
+/// Distances to the next surface above and below, medians over the region's columns.
+std::pair<double, double> next_surfaces(const PlanarRegion& region, const HeightSurvey& survey) {
   std::vector<double> above, below;
   const double least = kSurface * survey.voxel.plan_m * survey.voxel.plan_m;
   for (const std::uint32_t i : region.voxels) {
@@ -47,7 +42,7 @@ NextSurfaces next_surfaces(const PlanarRegion& region, const HeightSurvey& surve
     above.push_back(up);
     below.push_back(down);
   }
-  return {quantile(above, 50), quantile(below, 50), quantile(below, 10)};
+  return {median(above), median(below)};
 }
 
 /// Upright surface in the half metre over and under the region.
@@ -79,11 +74,27 @@ Walls walls_beside(const PlanarRegion& region, const HeightSurvey& survey) {
   return walls;
 }
 
+/// Whether three of its voxels are near those of other regions: a flight of stairs ends at landings.
+bool touches_another(const PlanarRegion& region, const HeightSurvey& survey,
+                     const std::vector<std::int32_t>& region_of) {
+  constexpr int kEnough = 3;
+  const std::int32_t own = region_of[region.voxels.front()];
+  int touching = 0;
+  for (const std::uint32_t i : region.voxels) {
+    bool touches = false;
+    for_each_near(survey.voxels, survey.voxels[i].key, 1, 1,
+                  [&](std::size_t j) { touches |= region_of[j] >= 0 && region_of[j] != own; });
+    touching += touches ? 1 : 0;
+  }
+  return touching >= kEnough;
+}
+
 }  // namespace
 
-PlaneSide side_of(const PlanarRegion& region, const HeightSurvey& survey) {
+PlaneSide side_of(const PlanarRegion& region, const HeightSurvey& survey,
+                  const std::vector<std::int32_t>& region_of) {
   constexpr double kWalled = 0.1;
-  const auto [up, down, lowest] = next_surfaces(region, survey);
+  const auto [up, down] = next_surfaces(region, survey);
   const bool open_up = up == kNothing;
   const bool open_down = down == kNothing;
   const auto ceiling_if = [](bool ceiling) { return ceiling ? PlaneSide::kCeiling : PlaneSide::kFloor; };
@@ -91,8 +102,8 @@ PlaneSide side_of(const PlanarRegion& region, const HeightSurvey& survey) {
   if (open_down && !open_up) return ceiling_if(up < kSlab_m);
   if (!open_up && (up < kSlab_m) != (down < kSlab_m)) return ceiling_if(up < kSlab_m);
   const Walls walls = walls_beside(region, survey);
-  const bool hovers = !open_up && up >= kSlab_m && lowest >= kSlab_m;
-  if (hovers && walls.share < kWalled) return PlaneSide::kClutter;
+  const bool hovers = !open_up && up >= kSlab_m && walls.share < kWalled;
+  if (hovers && !touches_another(region, survey, region_of)) return PlaneSide::kClutter;
   return ceiling_if(walls.hanging_m2 >= walls.standing_m2);
 }
 
