@@ -86,18 +86,30 @@ class PlaneFinder {
     }
   }
 
+  /// The planes, and behind them the levels.
+  std::vector<PlanarRegion> with_levels() const {
+    std::vector<PlanarRegion> all = planes_;
+    all.insert(all.end(), levels_.begin(), levels_.end());
+    return all;
+  }
+  void remove_clutter() {
+    const std::vector<std::int32_t> region_of = regions_of(with_levels(), voxels_.size());
+    std::erase_if(planes_, [&](const PlanarRegion& plane) {
+      return side_of(plane, survey_, region_of) == PlaneSide::kClutter;
+    });
+  }
+
   SlopedSurfaces result() {
-    std::erase_if(planes_,
-                  [&](const PlanarRegion& plane) { return side_of(plane, survey_) == PlaneSide::kClutter; });
+    remove_clutter();
     std::stable_sort(planes_.begin(), planes_.end(), [](const PlanarRegion& a, const PlanarRegion& b) {
       return a.moments.area_m2 > b.moments.area_m2;
     });
+    const std::vector<PlanarRegion> all = with_levels();
+    SlopedSurfaces found{{}, regions_of(all, voxels_.size())};
     const std::size_t planes = planes_.size();
-    planes_.insert(planes_.end(), levels_.begin(), levels_.end());
-    SlopedSurfaces found{{}, regions_of(planes_, voxels_.size())};
     for (std::size_t k = 0; k < planes; ++k) {
-      found.planes.push_back(to_plane(planes_[k], side_of(planes_[k], survey_),
-                                      outline_of(k, planes_, voxels_, found.of_voxel)));
+      found.planes.push_back(to_plane(all[k], side_of(all[k], survey_, found.of_voxel),
+                                      outline_of(k, all, voxels_, found.of_voxel)));
     }
     for (std::int32_t& plane : found.of_voxel) {
       if (plane >= static_cast<std::int32_t>(planes)) plane = SlopedSurfaces::kLevel;
