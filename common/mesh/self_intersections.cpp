@@ -6,7 +6,10 @@
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <algorithm>
+#include <optional>
 #include <utility>
+#include <vector>
 
 namespace roomcut {
 
@@ -23,9 +26,9 @@ std::vector<Point> points_of(const TriangleMesh& mesh) {
   }
   return points;
 }
-}  // namespace
 
-std::int64_t count_self_intersections(const TriangleMesh& mesh) {
+/// Pairs of triangles, or nothing when they are no polygon mesh.
+std::optional<std::vector<std::pair<std::size_t, std::size_t>>> intersecting_pairs(const TriangleMesh& mesh) {
   std::vector<std::array<std::size_t, 3>> corners;
   corners.reserve(mesh.triangles.size());
   for (const Triangle& t : mesh.triangles) {
@@ -33,14 +36,36 @@ std::int64_t count_self_intersections(const TriangleMesh& mesh) {
         {static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]), static_cast<std::size_t>(t[2])});
   }
   if (!pmp::is_polygon_soup_a_polygon_mesh(corners)) {
-    return -1;
+    return std::nullopt;
   }
   CGAL::Surface_mesh<Point> surface;
   pmp::polygon_soup_to_polygon_mesh(points_of(mesh), corners, surface);
   using Face = CGAL::Surface_mesh<Point>::Face_index;
-  std::vector<std::pair<Face, Face>> pairs;
-  pmp::self_intersections(surface, std::back_inserter(pairs));
-  return static_cast<std::int64_t>(pairs.size());
+  std::vector<std::pair<Face, Face>> faces;
+  pmp::self_intersections(surface, std::back_inserter(faces));
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (const auto& [a, b] : faces) {
+    pairs.emplace_back(a.idx(), b.idx());  // faces are made in the order of the triangles
+  }
+  return pairs;
+}
+}  // namespace
+
+std::int64_t count_self_intersections(const TriangleMesh& mesh) {
+  const auto pairs = intersecting_pairs(mesh);
+  return pairs ? static_cast<std::int64_t>(pairs->size()) : -1;
+}
+
+std::vector<std::size_t> self_intersecting_triangles(const TriangleMesh& mesh) {
+  std::vector<std::size_t> triangles;
+  if (const auto pairs = intersecting_pairs(mesh)) {
+    for (const auto& [a, b] : *pairs) {
+      triangles.insert(triangles.end(), {a, b});
+    }
+  }
+  std::sort(triangles.begin(), triangles.end());
+  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+  return triangles;
 }
 
 std::int64_t count_degenerate_triangles(const TriangleMesh& mesh) {

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <tuple>
 
+#include "common/mesh/self_intersections.h"
 #include "stages/extract/column_surface.h"
 #include "stages/extract/touching_knots.h"
 
@@ -15,6 +16,7 @@ namespace roomcut::extract {
 namespace {
 
 // Rounds of putting back what touches: one surface at each place, then all there, then all of the model.
+// Where nothing touches, the surfaces of the regions that cut each other go back.
 constexpr int kSingleRounds = 12;
 constexpr int kMostRounds = 24;
 
@@ -69,53 +71,103 @@ void check(const Attempt& attempt, double weld_m, BuiltSurface& built) {
   }
 }
 
-/// A level face with a surface that has a corner at a knot, and the volume between the two.
+/// A level face with a surface at a place where the model touches itself, and the volume between the two.
 struct Candidate {
-  std::int32_t knot;
+  std::int32_t place;
   double moved_m3;
   std::size_t level_face;
 };
 
+/// Calls visit(run, end, place, knot) for the corners of all floors and ceilings.
+template <class Visit>
+void for_each_corner(const Attempt& attempt, const Visit& visit) {
+  for (std::size_t r = 0; r < attempt.columns.runs.size(); ++r) {
+    const Run& run = attempt.columns.runs[r];
+    const auto first =
+        static_cast<std::size_t>(attempt.welded.corner_offset[static_cast<std::size_t>(run.face)]);
+    const auto knots = static_cast<std::size_t>(attempt.welded.knot_offset[r]);
+    for (std::size_t c = 0; c < attempt.welded.corners(static_cast<std::size_t>(run.face)); ++c) {
+      visit(run, run.lower, attempt.welded.corner_place[first + c], attempt.welded.lower[knots + c]);
+      visit(run, run.upper, attempt.welded.corner_place[first + c], attempt.welded.upper[knots + c]);
+    }
+  }
+}
+
+/// The surfaces that have a corner at one of the knots; if there is none, those over and under them.
 std::vector<Candidate> candidates_at(const EndHeights& heights, const Attempt& attempt,
                                      const std::vector<std::int32_t>& knots) {
   const CellComplex& complex = heights.complex();
-  std::vector<Candidate> found;
-  const auto add = [&](std::size_t face, const RunEnd& end, std::int32_t knot) {
-    if (end.surface >= 0 && std::binary_search(knots.begin(), knots.end(), knot)) {
+  std::vector<std::uint8_t> touching(attempt.welded.places.size(), 0);
+  std::vector<Candidate> at, over;
+  const auto is_in = [&](std::int32_t knot) { return std::binary_search(knots.begin(), knots.end(), knot); };
+  for_each_corner(attempt, [&](const Run&, const RunEnd&, std::int32_t place, std::int32_t knot) {
+    touching[static_cast<std::size_t>(place)] |= is_in(knot) ? 1 : 0;
+  });
+  for_each_corner(attempt, [&](const Run& run, const RunEnd& end, std::int32_t place, std::int32_t knot) {
+    if (end.surface >= 0 && touching[static_cast<std::size_t>(place)] != 0) {
+      const auto face = static_cast<std::size_t>(run.face);
       const auto level = static_cast<std::size_t>(end.level);
       const double off = std::abs(heights.z(end, complex.centroid(face)) - complex.levels[level]);
-      found.push_back({knot, complex.area(face) * off, complex.level_face(face, level)});
+      const Candidate candidate{place, complex.area(face) * off, complex.level_face(face, level)};
+      (is_in(knot) ? at : over).push_back(candidate);
     }
-  };
-  for (std::size_t r = 0; r < attempt.columns.runs.size(); ++r) {
-    const Run& run = attempt.columns.runs[r];
-    for (auto k = static_cast<std::size_t>(attempt.welded.knot_offset[r]);
-         k < static_cast<std::size_t>(attempt.welded.knot_offset[r + 1]); ++k) {
-      add(static_cast<std::size_t>(run.face), run.lower, attempt.welded.lower[k]);
-      add(static_cast<std::size_t>(run.face), run.upper, attempt.welded.upper[k]);
-    }
-  }
+  });
+  std::vector<Candidate>& found = at.empty() ? over : at;
   std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
-    return std::tie(a.knot, a.moved_m3, a.level_face) < std::tie(b.knot, b.moved_m3, b.level_face);
+    return std::tie(a.place, a.moved_m3, a.level_face) < std::tie(b.place, b.moved_m3, b.level_face);
   });
   return found;
 }
 
-/// At each of the knots puts back the surface that moves least by it, or all there. Returns whether there
-/// were any.
+/// At each place where the model touches itself puts back the surface that moves least by it, or all there.
+/// Returns whether there were any.
 bool put_back_at(const EndHeights& heights, const Attempt& attempt, bool all, LevelSurfaces& surfaces,
                  std::vector<std::size_t>& put_back) {
   const std::vector<Candidate> candidates =
       candidates_at(heights, attempt, touching_knots(attempt.surface.facets));
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     std::int32_t& own = surfaces.of_face[candidates[i].level_face];
-    const bool least = i == 0 || candidates[i - 1].knot != candidates[i].knot;
+    const bool least = i == 0 || candidates[i - 1].place != candidates[i].place;
     if (own >= 0 && (all || least)) {
       own = -1;
       put_back.push_back(candidates[i].level_face);
     }
   }
   return !candidates.empty();
+}
+
+/// The surfaces of regions that could not be triangulated or cut others, ascending.
+std::vector<std::int32_t> faulty_surfaces(const CellComplex& complex, const MergedSurface& merged) {
+  std::vector<std::size_t> regions;
+  for (std::size_t r = 0; r < merged.regions.size(); ++r) {
+    if (merged.regions[r].triangles == 0) {
+      regions.push_back(r);
+    }
+  }
+  for (const std::size_t t : self_intersecting_triangles(merged.mesh)) {
+    regions.push_back(static_cast<std::size_t>(merged.mesh.region[t]));
+  }
+  std::vector<std::int32_t> surfaces;
+  for (const std::size_t r : regions) {
+    if (const std::int32_t surface = surface_of_plane(complex, merged.regions[r].plane); surface >= 0) {
+      surfaces.push_back(surface);
+    }
+  }
+  std::sort(surfaces.begin(), surfaces.end());
+  return surfaces;
+}
+
+/// Puts back all faces of some surfaces. Returns whether there were any.
+bool put_back_whole(const std::vector<std::int32_t>& whole, LevelSurfaces& surfaces,
+                    std::vector<std::size_t>& put_back) {
+  const std::size_t before = put_back.size();
+  for (std::size_t i = 0; i < surfaces.of_face.size(); ++i) {
+    if (surfaces.of_face[i] >= 0 && std::binary_search(whole.begin(), whole.end(), surfaces.of_face[i])) {
+      surfaces.of_face[i] = -1;
+      put_back.push_back(i);
+    }
+  }
+  return put_back.size() > before;
 }
 
 void put_back_all(LevelSurfaces& surfaces, std::vector<std::size_t>& put_back) {
@@ -150,7 +202,9 @@ BuiltSurface build_surface(const CellComplex& complex, const std::vector<std::ui
       built.put_back = std::move(put_back);
       return built;
     }
-    if (round >= kMostRounds || !put_back_at(heights, attempt, round >= kSingleRounds, surfaces, put_back)) {
+    if (round >= kMostRounds ||
+        (!put_back_at(heights, attempt, round >= kSingleRounds, surfaces, put_back) &&
+         !put_back_whole(faulty_surfaces(complex, built.merged), surfaces, put_back))) {
       put_back_all(surfaces, put_back);
     }
   }

@@ -83,7 +83,33 @@ class SurfaceMaker {
     return meetings_.insert({{plane(run.lower), plane(run.upper)}, name}).first->second;
   }
 
-  /// Floor and ceiling. Their corners: where the run is open, and beside these where it ends in an edge.
+  /// The corners of a run: where it is open, and between these where floor and ceiling meet: all corners of a
+  /// side along which they do, else its two ends, between which they meet across the face.
+  void keep_corners(std::size_t n, const std::int32_t* lower, const std::int32_t* upper) {
+    kept_.clear();
+    std::size_t start = 0;
+    while (start < n && upper[start] <= lower[start]) {
+      ++start;
+    }
+    for (std::size_t i = 0; start < n && i < n;) {
+      const std::size_t gap = i;
+      bool meets = true;
+      for (std::size_t c = start + i; i < n && upper[c % n] <= lower[c % n]; c = start + ++i) {
+        meets = meets && upper[c % n] == lower[c % n];
+      }
+      for (std::size_t k = gap; k < i; ++k) {
+        const std::size_t c = (start + k) % n;
+        if (upper[c] == lower[c] && (meets || k == gap || k + 1 == i)) {
+          kept_.push_back(c);
+        }
+      }
+      for (; i < n && upper[(start + i) % n] > lower[(start + i) % n]; ++i) {
+        kept_.push_back((start + i) % n);
+      }
+    }
+  }
+
+  /// Floor and ceiling.
   void add_ends(std::size_t r) {
     const Run& run = columns_.runs[r];
     const auto face = static_cast<std::size_t>(run.face);
@@ -92,20 +118,15 @@ class SurfaceMaker {
     const std::int32_t* lower = &welded_.lower[static_cast<std::size_t>(welded_.knot_offset[r])];
     const std::int32_t* upper = &welded_.upper[static_cast<std::size_t>(welded_.knot_offset[r])];
     const auto open = [&](std::size_t c) { return upper[c] > lower[c]; };
-    kept_.clear();
-    for (std::size_t c = 0; c < n; ++c) {
-      if (open(c) || (upper[c] == lower[c] && (open((c + 1) % n) || open((c + n - 1) % n)))) {
-        kept_.push_back(c);
-      }
-    }
-    if (std::none_of(kept_.begin(), kept_.end(), open)) {
-      return;
-    }
+    keep_corners(n, lower, upper);
     carriers_.clear();
     for (std::size_t i = 0; i < kept_.size(); ++i) {
       const std::size_t c = kept_[i];
       const std::size_t next = kept_[i + 1 < kept_.size() ? i + 1 : 0];
       carriers_.push_back(open(c) || open(next) ? carrier(welded_.corner_edge[first + c]) : meeting(run));
+    }
+    if (kept_.empty()) {
+      return;
     }
     add_end(run, upper, SurfaceKind::kCeiling);
     measure(lower, upper);
@@ -253,6 +274,11 @@ class SurfaceMaker {
 ColumnSurface surface_of_columns(const EndHeights& heights, const Columns& columns,
                                  const WeldedColumns& welded) {
   return SurfaceMaker(heights, columns, welded).make();
+}
+
+std::int32_t surface_of_plane(const CellComplex& complex, std::int64_t plane) {
+  const std::int64_t surface = (-1 - plane) / 2 - static_cast<std::int64_t>(complex.levels.size());
+  return plane >= 0 || surface < 0 ? -1 : static_cast<std::int32_t>(surface);
 }
 
 }  // namespace roomcut::extract

@@ -20,4 +20,7 @@ struct ColumnSurface {
 ColumnSurface surface_of_columns(const EndHeights& heights, const Columns& columns,
                                  const WeldedColumns& welded);
 
+/// The surface whose floors or ceilings carry this name of a plane; -1 = a level or a wall.
+std::int32_t surface_of_plane(const CellComplex& complex, std::int64_t plane);
+
 }  // namespace roomcut::extract

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -52,7 +53,7 @@ class CreaseMover {
     for (std::size_t v = 0; v < demands_.size(); ++v) {
       complex_.vertices[v] += displacement(demands_[v]);
     }
-    take_back_what_turns_over(old);
+    take_back_what_shrinks(old);
     int moved = 0;
     for (std::size_t v = 0; v < old.size(); ++v) {
       moved += complex_.vertices[v] != old[v] ? 1 : 0;
@@ -184,31 +185,47 @@ class CreaseMover {
     return way.norm() <= kFarthest_m ? Vec2(free * way) : Vec2(0, 0);
   }
 
-  /// Every face must still be seen whole from its middle.
-  void take_back_what_turns_over(const std::vector<Vec2>& old) {
+  /// No face may shrink by more than half: towards any of its sides, or one of these.
+  void take_back_what_shrinks(const std::vector<Vec2>& old) {
     for (bool again = true; again;) {
       again = false;
       for (std::size_t face = 0; face < complex_.faces(); ++face) {
-        if (is_star(complex_.corners(face), complex_.centroid(face))) {
-          continue;
-        }
-        for (const std::int32_t v : complex_.vertices_of(face)) {
-          again = again || vertex(v) != old[static_cast<std::size_t>(v)];
-          complex_.vertices[static_cast<std::size_t>(v)] = old[static_cast<std::size_t>(v)];
+        const auto vertices = complex_.vertices_of(face);
+        const bool moved = std::any_of(vertices.begin(), vertices.end(), [&](std::int32_t v) {
+          return vertex(v) != old[static_cast<std::size_t>(v)];
+        });
+        if (moved && !keeps_half(complex_.corners(face), FaceCorners(old.data(), vertices))) {
+          for (const std::int32_t v : vertices) {
+            complex_.vertices[static_cast<std::size_t>(v)] = old[static_cast<std::size_t>(v)];
+          }
+          again = true;
         }
       }
     }
   }
 
-  static bool is_star(const FaceCorners& corners, const Vec2& middle) {
+  static bool keeps_half(const FaceCorners& corners, const FaceCorners& old) {
+    const Vec2 middle = mean(corners);
+    const Vec2 old_middle = mean(old);
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      const Vec2 a = corners[i] - middle;
-      const Vec2 b = corners.after(i) - middle;
-      if (a.x() * b.y() - a.y() * b.x() <= 0) {
+      const Vec2 side = corners.after(i) - corners[i];
+      const Vec2 old_side = old.after(i) - old[i];
+      if (side.norm() < 0.5 * old_side.norm() ||
+          distance(corners[i], side, middle) < 0.5 * distance(old[i], old_side, old_middle)) {
         return false;
       }
     }
     return true;
+  }
+
+  static Vec2 mean(const FaceCorners& corners) {
+    return std::accumulate(corners.begin(), corners.end(), Vec2(0, 0)) / static_cast<double>(corners.size());
+  }
+
+  /// Of p from the line through `from` along `side`, which it must lie left of.
+  static double distance(const Vec2& from, const Vec2& side, const Vec2& p) {
+    const Vec2 to = p - from;
+    return (side.x() * to.y() - side.y() * to.x()) / side.norm();
   }
 
   const std::vector<std::uint8_t>& label_;

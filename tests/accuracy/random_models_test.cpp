@@ -148,36 +148,50 @@ bool is_under_roofs(const std::vector<SlopedPlane>& planes, const Vec3& p) {
   });
 }
 
-/// Ceilings near a plane follow it, a little refitted; the other floors and ceilings of a level lie up to 2
-/// cm beside it and lean by up to 0.5 %.
+/// The plane nearest to a level over a place, to which it is the nearest level; -1 = none.
+std::int32_t plane_near(const CellComplex& complex, std::size_t level, const Vec2& p) {
+  std::int32_t nearest = -1;
+  double least = 0.2;
+  for (std::size_t i = 0; i < complex.planes.size(); ++i) {
+    const double z = complex.planes[i].height(p);
+    const double off = std::abs(z - complex.levels[level]);
+    const bool other = std::any_of(complex.levels.begin(), complex.levels.end(),
+                                   [&](double l) { return std::abs(z - l) < off; });
+    if (complex.planes[i].covers(p, 0.3) && off < least && !other) {
+      least = off;
+      nearest = static_cast<std::int32_t>(i);
+    }
+  }
+  return nearest;
+}
+
+/// Ceilings near a plane follow it, a little refitted. The other floors and ceilings of a level, not the same
+/// on both sides of a line through the building, lie up to 2 cm beside it, lean by up to 0.5 %, or stay.
 LevelSurfaces random_surfaces(const CellComplex& complex, const std::vector<std::uint8_t>& label,
                               Draw& draw) {
   LevelSurfaces out;
-  const auto jittered = [&](const Vec2& gradient, double c, double tilt, double off) {
+  const auto add = [&](const Vec2& gradient, double c, double tilt, double off) {
     LevelSurface surface;
     surface.gradient = gradient + tilt * Vec2(draw.around(), draw.around());
     surface.c = c + off * draw.around();
     out.surfaces.push_back(surface);
   };
-  for (const SlopedPlane& plane : complex.planes) jittered(plane.gradient, plane.c, 3e-4, 0.003);
+  for (const SlopedPlane& plane : complex.planes) add(plane.gradient, plane.c, 3e-4, 0.003);
   for (const double z : complex.levels) {
-    jittered({0, 0}, z, 0.005, 0.02);
-    jittered({0, 0}, z, 0, 0.02);
+    for (int i = 0; i < 4; ++i) add({0, 0}, z, i < 2 ? 0.005 : 0, 0.02);
   }
+  const Vec2 across(draw.around(), draw.around());
+  const double border = across.dot(complex.centroid(complex.faces() / 2));
   for (std::size_t i = 0; i < complex.levels.size() * complex.faces(); ++i) {
     const std::size_t level = complex.level_of(i);
     const bool below = level > 0 && is_empty(label, i - complex.faces());
     const bool above = level < complex.layers() && is_empty(label, i);
-    out.of_face.push_back(-1);
-    if (above == below || draw() < 0.05) continue;
     const Vec2 middle = complex.centroid(complex.face_of_level(i));
-    out.of_face[i] = static_cast<std::int32_t>(complex.planes.size() + 2 * level + (above ? 1 : 0));
-    for (std::size_t p = 0; below && p < complex.planes.size(); ++p) {
-      if (complex.planes[p].covers(middle, 0.3) &&
-          std::abs(complex.planes[p].height(middle) - complex.levels[level]) < 0.2) {
-        out.of_face[i] = static_cast<std::int32_t>(p);
-      }
-    }
+    const bool here = across.dot(middle) < border;
+    const std::int32_t plane = below ? plane_near(complex, level, middle) : -1;
+    const auto of_level =
+        static_cast<std::int32_t>(complex.planes.size() + 4 * level + (above ? 2 : 0) + (here ? 1 : 0));
+    out.of_face.push_back(above == below ? -1 : plane >= 0 ? plane : here || level % 3 != 1 ? of_level : -1);
   }
   return out;
 }
@@ -261,7 +275,7 @@ TEST_P(RandomModels, AreValidAndEncloseJustTheirEmptyCells) {
   EXPECT_GT(repaired, models / 10);  // the corners that need repair do come up
   std::cout << GetParam() << ": " << models << " models, " << repaired << " of them repaired; " << put_back
             << " of " << area << " m2 of floors and ceilings put back\n";
-  EXPECT_LT(put_back, 0.05 * area);
+  EXPECT_LT(put_back, 0.01 * area);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, RandomModels, ::testing::ValuesIn(family_names()),

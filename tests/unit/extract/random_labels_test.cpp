@@ -163,8 +163,8 @@ LevelSurfaces random_surfaces(const RandomCells& cells, std::uint64_t seed, cons
 TEST(Extract, RandomSurfacesLeaveRandomLabelingsClosedAndFreeOfIntersections) {
   // As fits give them; as one level's faces at random from several; slopes; and nonsense.
   for (const Wildness& wild :
-       {Wildness{0.03, 0.01, 1, 0.02}, Wildness{0.03, 0.01, 3, 0.2}, Wildness{1e-4, 1e-4, 3, 0.4},
-        Wildness{0.1, 0.3, 1, 0.15}, Wildness{0.3, 2, 2, 1}}) {
+       {Wildness{0.03, 0.01, 1, 0.02}, Wildness{0.03, 0.01, 3, 0.2}, Wildness{1e-4, 1e-4, 3, 0.15},
+        Wildness{0.1, 0.3, 1, 0.4}, Wildness{0.3, 2, 2, 1}}) {
     double area = 0, put_back = 0;
     for (std::uint64_t seed = 0; seed < 60; ++seed) {
       SCOPED_TRACE("seed " + std::to_string(seed) + ", tilt " + std::to_string(wild.tilt));
