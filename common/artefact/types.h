@@ -13,10 +13,10 @@ struct ArtefactType {
 
 namespace artefacts {
 inline constexpr ArtefactType kCloud{"cloud", 1, 1};
-inline constexpr ArtefactType kSlices{"slices", 1, 1};
+inline constexpr ArtefactType kSlices{"slices", 1, 2};
 inline constexpr ArtefactType kHough{"hough", 1, 0};
 inline constexpr ArtefactType kWallLines{"wall_lines", 1, 1};
-inline constexpr ArtefactType kCells{"cells", 1, 0};
+inline constexpr ArtefactType kCells{"cells", 1, 1};
 inline constexpr ArtefactType kWeights{"weights", 1, 1};
 inline constexpr ArtefactType kDataTerms{"data_terms", 3, 0};
 inline constexpr ArtefactType kLabels{"labels", 1, 1};

@@ -108,11 +108,14 @@ struct CellComplex {
     }
     /// Whether the stairs that stand for a sloped plane rise here in this layer.
     bool rises(std::size_t layer) const {
-      return plane >= 0 &&
-             std::binary_search(layers.begin(), layers.end(), static_cast<std::int32_t>(layer));
+      return plane >= 0 && std::binary_search(layers.begin(), layers.end(), static_cast<std::int32_t>(layer));
     }
   };
   std::vector<Line> lines;
+  /// Whether the edge lies on a wall line, neither on a crease nor on a side of the bounding box.
+  bool on_wall_line(const Edge& edge) const {
+    return edge.line >= 0 && lines[static_cast<std::size_t>(edge.line)].plane < 0;
+  }
 
   /// Sloped floors and ceilings. In the cells they are stairs, one step where the plane is nearest to a level
   /// of `steps`; what follows the cut puts the plane itself in their place (LevelSurfaces).

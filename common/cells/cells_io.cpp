@@ -7,6 +7,7 @@
 #include "common/artefact/h5_values.h"
 #include "common/artefact/json.h"
 #include "common/artefact/limits.h"
+#include "common/slices/planes_io.h"
 
 // The page of this artefact is schemas/cells.md.
 
@@ -54,6 +55,13 @@ void write_lines(H5Writer& file, const std::vector<CellComplex::Line>& lines) {
   file.write("lines/layers_offset", layer_offset, "1",
              "layers of line i = layers[layers_offset[i] .. layers_offset[i+1])");
   file.write("lines/layers", layers, "1", "layers where the line may carry a wall; none = all");
+  std::vector<std::int32_t> plane;
+  for (const CellComplex::Line& line : lines) {
+    plane.push_back(line.plane);
+  }
+  file.write("lines/plane", plane, "1",
+             "-1 = a wall line; else a crease of this sloped plane, which carries no wall: in its layers "
+             "stairs rise");
 }
 
 /// Checks that `offset` starts at 0, never falls and ends at `end`.
@@ -80,6 +88,10 @@ std::vector<CellComplex::Line> read_lines(const H5Reader& file) {
   const auto id_bytes = file.read<std::uint8_t>("lines/id_bytes", {0});
   const auto layer_offset = file.read<std::int64_t>("lines/layers_offset", {theta.size() + 1});
   const auto layers = file.read<std::int32_t>("lines/layers", {0});
+  std::vector<std::int32_t> plane(theta.size(), -1);
+  if (file.exists("lines/plane")) {
+    plane = file.read<std::int32_t>("lines/plane", {theta.size()});
+  }
   check_offsets(file, "lines/id_offset", id_offset, id_bytes.size());
   check_offsets(file, "lines/layers_offset", layer_offset, layers.size());
   std::vector<CellComplex::Line> lines(theta.size());
@@ -92,6 +104,7 @@ std::vector<CellComplex::Line> read_lines(const H5Reader& file) {
     lines[i].t0 = support[2 * i];
     lines[i].t1 = support[2 * i + 1];
     lines[i].layers.assign(layers.begin() + layer_offset[i], layers.begin() + layer_offset[i + 1]);
+    lines[i].plane = plane[i];
   }
   return lines;
 }
@@ -141,6 +154,11 @@ CellsFile read_cells(const std::filesystem::path& path) {
   complex.face_edge = file.read<std::int32_t>("faces/edge", {0});
   complex.edges = read_edges(file);
   complex.lines = read_lines(file);
+  complex.planes = read_planes(file);
+  complex.steps.assign(complex.levels.size(), 0);
+  if (file.exists("levels/step")) {
+    complex.steps = read_in_range<std::uint8_t>(file, "levels/step", {complex.levels.size()}, 0, 1);
+  }
   cells.payload_sha256 = file.payload_sha256();
   const std::string violation = find_violation(complex);
   if (!violation.empty()) {
@@ -159,6 +177,9 @@ bool write_cells(const std::filesystem::path& path, const CellComplex& complex,
   }
   file.write("levels/z", complex.levels, "m",
              "heights of the levels, ascending; layer k lies between levels k and k+1");
+  std::vector<std::uint8_t> steps = complex.steps;
+  steps.resize(complex.levels.size());
+  file.write("levels/step", steps, "1", "1 = stands for sloped planes alone, as stairs would");
   file.write("vertices/xy", std::span<const double>(xy), {complex.vertices.size(), 2}, "m",
              "vertices of the plan");
   file.write("faces/offset", complex.face_offset, "1", "corners of face f = [offset[f] .. offset[f+1])");
@@ -166,6 +187,7 @@ bool write_cells(const std::filesystem::path& path, const CellComplex& complex,
   file.write("faces/edge", complex.face_edge, "1", "edge from each corner to the next one");
   write_edges(file, complex.edges);
   write_lines(file, complex.lines);
+  write_planes(file, complex.planes);
   return file.commit();
 }
 

@@ -42,6 +42,9 @@ std::string check_lines(const CellComplex& complex) {
     if (!std::isfinite(line.line.theta + line.line.d + line.t0 + line.t1) || line.t0 > line.t1) {
       return at("line", i, "not finite, or its support is turned round");
     }
+    if (line.plane < -1 || line.plane >= static_cast<std::int64_t>(complex.planes.size())) {
+      return at("line", i, "plane out of range");
+    }
     for (std::size_t k = 0; k < line.layers.size(); ++k) {
       if (!in_range(line.layers[k], complex.layers()) || (k > 0 && line.layers[k] <= line.layers[k - 1])) {
         return at("line", i, "layers out of range or order");

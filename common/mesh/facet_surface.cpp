@@ -28,6 +28,14 @@ Vec3 facet_normal(const FacetSurface& surface, std::size_t facet) {
   return normal;
 }
 
+// Floors and ceilings are single-valued over the plan however they slope, and their corners exact there.
+Vec3 region_normal(const FacetSurface& surface, std::size_t facet) {
+  const auto kind = static_cast<SurfaceKind>(surface.kind[facet]);
+  return kind == SurfaceKind::kFloor     ? Vec3(0, 0, -1)
+         : kind == SurfaceKind::kCeiling ? Vec3(0, 0, 1)
+                                         : facet_normal(surface, facet);
+}
+
 // The corners of one region, and its outline in the plane.
 struct Outline {
   PlanarRegion planar;
@@ -122,7 +130,7 @@ MergedSurface merge_facets(const FacetSurface& surface, double straight_m) {
     while (last < segments.size() && segments[last].region == region) {
       ++last;
     }
-    const Outline outline = outline_of(surface, project(facet_normal(surface, f)), segments.data() + first,
+    const Outline outline = outline_of(surface, project(region_normal(surface, f)), segments.data() + first,
                                        segments.data() + last);
     std::string why;
     const auto triangles = triangulate(outline.planar, why);

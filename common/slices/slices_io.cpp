@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string>
 #include <utility>
 
 #include "common/artefact/h5_values.h"
 #include "common/artefact/limits.h"
 #include "common/artefact/types.h"
+#include "common/slices/planes_io.h"
 
 namespace roomcut {
 namespace {
@@ -171,6 +173,7 @@ Slices read_slices(const std::filesystem::path& path, bool grids) {
   slices.histogram.bin_m = read_number(file, "histogram/bin", 0, limits::kLargestEdge_m);
   slices.histogram.area_m2 = read_in_range<double>(file, "histogram/area", {0}, 0, limits::kLargestArea_m2);
   slices.levels = read_levels(file);
+  slices.planes = read_planes(file);
   slices.wall_slices.resize(slices.levels.size() - 1);
   if (grids) read_wall_slices(file, slices);
   return slices;
@@ -189,6 +192,7 @@ bool write_slices(const std::filesystem::path& path, const Slices& slices, const
   file.write("histogram/area", slices.histogram.area_m2, "m^2", "horizontal surface per bin");
   write_levels(file, slices.levels);
   write_wall_slices(file, slices.wall_slices);
+  write_planes(file, slices.planes);
   return file.commit();
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <tuple>
 
 #include "stages/extract/column_surface.h"
 #include "stages/extract/touching_knots.h"
@@ -13,7 +14,9 @@ namespace roomcut::extract {
 
 namespace {
 
-constexpr int kMostRounds = 12;  // of putting back what touches; each only takes surfaces away
+// Rounds of putting back what touches: one surface at each place, then all there, then all of the model.
+constexpr int kSingleRounds = 12;
+constexpr int kMostRounds = 24;
 
 SurfaceAreas measure_areas(const TriangleMesh& mesh) {
   SurfaceAreas areas;
@@ -66,26 +69,53 @@ void check(const Attempt& attempt, double weld_m, BuiltSurface& built) {
   }
 }
 
-/// Puts back the surfaces whose corners are among the knots. Returns whether there were any.
-bool put_back_at(const CellComplex& complex, const Attempt& attempt, const std::vector<std::int32_t>& knots,
-                 LevelSurfaces& surfaces, std::vector<std::size_t>& put_back) {
-  const std::size_t before = put_back.size();
-  const auto put = [&](std::size_t face, const RunEnd& end, std::int32_t knot) {
-    std::int32_t& own = surfaces.of_face[complex.level_face(face, static_cast<std::size_t>(end.level))];
-    if (own >= 0 && std::binary_search(knots.begin(), knots.end(), knot)) {
-      own = -1;
-      put_back.push_back(complex.level_face(face, static_cast<std::size_t>(end.level)));
+/// A level face with a surface that has a corner at a knot, and the volume between the two.
+struct Candidate {
+  std::int32_t knot;
+  double moved_m3;
+  std::size_t level_face;
+};
+
+std::vector<Candidate> candidates_at(const EndHeights& heights, const Attempt& attempt,
+                                     const std::vector<std::int32_t>& knots) {
+  const CellComplex& complex = heights.complex();
+  std::vector<Candidate> found;
+  const auto add = [&](std::size_t face, const RunEnd& end, std::int32_t knot) {
+    if (end.surface >= 0 && std::binary_search(knots.begin(), knots.end(), knot)) {
+      const auto level = static_cast<std::size_t>(end.level);
+      const double off = std::abs(heights.z(end, complex.centroid(face)) - complex.levels[level]);
+      found.push_back({knot, complex.area(face) * off, complex.level_face(face, level)});
     }
   };
   for (std::size_t r = 0; r < attempt.columns.runs.size(); ++r) {
     const Run& run = attempt.columns.runs[r];
     for (auto k = static_cast<std::size_t>(attempt.welded.knot_offset[r]);
          k < static_cast<std::size_t>(attempt.welded.knot_offset[r + 1]); ++k) {
-      put(static_cast<std::size_t>(run.face), run.lower, attempt.welded.lower[k]);
-      put(static_cast<std::size_t>(run.face), run.upper, attempt.welded.upper[k]);
+      add(static_cast<std::size_t>(run.face), run.lower, attempt.welded.lower[k]);
+      add(static_cast<std::size_t>(run.face), run.upper, attempt.welded.upper[k]);
     }
   }
-  return put_back.size() > before;
+  std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
+    return std::tie(a.knot, a.moved_m3, a.level_face) < std::tie(b.knot, b.moved_m3, b.level_face);
+  });
+  return found;
+}
+
+/// At each of the knots puts back the surface that moves least by it, or all there. Returns whether there
+/// were any.
+bool put_back_at(const EndHeights& heights, const Attempt& attempt, bool all, LevelSurfaces& surfaces,
+                 std::vector<std::size_t>& put_back) {
+  const std::vector<Candidate> candidates =
+      candidates_at(heights, attempt, touching_knots(attempt.surface.facets));
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    std::int32_t& own = surfaces.of_face[candidates[i].level_face];
+    const bool least = i == 0 || candidates[i - 1].knot != candidates[i].knot;
+    if (own >= 0 && (all || least)) {
+      own = -1;
+      put_back.push_back(candidates[i].level_face);
+    }
+  }
+  return !candidates.empty();
 }
 
 void put_back_all(LevelSurfaces& surfaces, std::vector<std::size_t>& put_back) {
@@ -120,8 +150,7 @@ BuiltSurface build_surface(const CellComplex& complex, const std::vector<std::ui
       built.put_back = std::move(put_back);
       return built;
     }
-    if (round >= kMostRounds ||
-        !put_back_at(complex, attempt, touching_knots(attempt.surface.facets), surfaces, put_back)) {
+    if (round >= kMostRounds || !put_back_at(heights, attempt, round >= kSingleRounds, surfaces, put_back)) {
       put_back_all(surfaces, put_back);
     }
   }

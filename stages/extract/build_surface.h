@@ -28,8 +28,8 @@ struct BuiltSurface {
 
 /// Builds the border of the empty cells with its floors and ceilings at `surfaces`, and checks it. Where
 /// surfaces would not leave a sound model, level faces go back to their levels, in `surfaces`, too: those of
-/// slabs without thickness; those at the places where the model would touch itself; and if that does not mend
-/// it, all.
+/// slabs without thickness; at the places where the model would touch itself one after the other, the one that
+/// moves least first; and if that does not mend it, all.
 BuiltSurface build_surface(const CellComplex& complex, const std::vector<std::uint8_t>& label,
                            const Storeys& storeys, LevelSurfaces& surfaces);
 

@@ -61,6 +61,17 @@ class SurfaceMaker {
     return static_cast<std::int64_t>(complex_.lines.size()) + side;
   }
 
+  /// The name of the upright plane over an edge: that of its line, or where creases moved its own.
+  std::int64_t upright(std::int32_t e) const {
+    const CellComplex::Edge& edge = complex_.edges[static_cast<std::size_t>(e)];
+    const auto off = [&](std::int32_t v) {
+      return std::abs(complex_.lines[static_cast<std::size_t>(edge.line)].line.distance(vertex(v)));
+    };
+    return edge.line < 0 || std::max(off(edge.v0), off(edge.v1)) <= kPlanSnap_m
+               ? carrier(e)
+               : static_cast<std::int64_t>(complex_.lines.size()) + 4 + e;
+  }
+
   /// The name of a plane without its side.
   std::int64_t plane(const RunEnd& end) const {
     return end.surface < 0 ? end.level : static_cast<std::int64_t>(complex_.levels.size()) + end.surface;
@@ -214,8 +225,8 @@ class SurfaceMaker {
       std::reverse(corners_.begin() + 1, corners_.end());
       std::reverse(carriers_.begin(), carriers_.end());
     }
-    out_.facets.add(corners_, carriers_, 2 * line + (positive ? 1 : 0), SurfaceKind::kWall,
-                    left != nullptr ? left->storey : right->storey);
+    out_.facets.add(corners_, carriers_, 2 * upright(static_cast<std::int32_t>(e)) + (positive ? 1 : 0),
+                    SurfaceKind::kWall, left != nullptr ? left->storey : right->storey);
   }
 
   void add_side(std::int32_t to, std::int64_t carrier) {

@@ -9,6 +9,7 @@
 #include "stages/extract/build_surface.h"
 #include "stages/extract/carry_surfaces.h"
 #include "stages/extract/cut_openings.h"
+#include "stages/extract/meet_creases.h"
 
 namespace roomcut::extract {
 
@@ -106,6 +107,7 @@ Model extract_model(const CellComplex& complex, const Labels& labels, const std:
       of_all.of_cell[cell] = storeys.of_cell[passage.cell_a];
     }
   }
+  meet_creases(opened.label, carried, cut.complex);
   take(cut.complex, build_surface(cut.complex, opened.label, of_all, carried), model);
   model.storeys = measure_storeys(heights, cut.labels, storeys);
   const Rooms rooms = find_rooms(heights, cut.labels, storeys);

@@ -28,7 +28,7 @@ class Walker {
 
   Places walk_all() {
     for (const CellComplex::Edge& edge : complex_.edges) {
-      if (edge.line < 0 || edge.left < 0 || edge.right < 0) {
+      if (!complex_.on_wall_line(edge) || edge.left < 0 || edge.right < 0) {
         continue;
       }
       const Line2& line = complex_.lines[static_cast<std::size_t>(edge.line)].line;

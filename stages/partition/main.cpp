@@ -16,7 +16,7 @@ using namespace roomcut::partition;
 StageInfo info() {
   StageInfo stage;
   stage.name = "partition";
-  stage.revision = 1;
+  stage.revision = 3;
   stage.summary = "Cuts the plan into convex cells along the wall lines and stacks them between the levels";
   stage.inputs = {{"lines", "Accepted (or refined) wall lines"}, {"slices", "Levels of floors and ceilings"}};
   stage.outputs = {{"cells-out", "The cell complex"}};
@@ -27,10 +27,12 @@ void body(StageRun& run, const PartitionParams& params) {
   const WallLinesFile lines = read_wall_lines(run.input("lines"));
   const Slices slices = read_slices(run.input("slices"), false);
   std::vector<double> levels;
+  Slopes slopes{slices.planes, {}};
   for (const Level& level : slices.levels) {
     levels.push_back(level.z);
+    slopes.steps.push_back(level.step ? 1 : 0);
   }
-  const Partition result = partition::partition(lines.content, levels, params);
+  const Partition result = partition::partition(lines.content, levels, params, slopes);
   const CellComplex& complex = result.complex;
   const std::string violation = find_violation(complex);
   if (!violation.empty()) {
@@ -38,7 +40,9 @@ void body(StageRun& run, const PartitionParams& params) {
   }
   write_cells(run.output("cells-out"), complex, run.provenance());
 
-  run.count("lines", static_cast<double>(complex.lines.size()));
+  run.count("lines", static_cast<double>(lines.content.lines.size()));
+  run.count("creases of sloped planes",
+            static_cast<double>(complex.lines.size() - lines.content.lines.size()));
   run.count("lines without an edge of their own", static_cast<double>(result.without_edge.size()));
   run.count("plan faces before pruning", static_cast<double>(result.faces_before_pruning));
   run.count("plan faces", static_cast<double>(complex.faces()));

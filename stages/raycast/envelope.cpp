@@ -30,7 +30,7 @@ std::vector<Heading> headings(const CellComplex& complex, const FaceWeights& wei
     all.push_back({std::atan2(along.y(), along.x()), 0});
   }
   for (std::size_t e = 0; e < complex.edges.size(); ++e) {
-    for (std::size_t k = 0; k < complex.layers() && complex.edges[e].line >= 0; ++k) {
+    for (std::size_t k = 0; k < complex.layers() && complex.on_wall_line(complex.edges[e]); ++k) {
       all[static_cast<std::size_t>(complex.edges[e].line)].area +=
           weights.wall_omega[complex.wall_face(e, k)] * complex.length(e) * complex.height(k);
     }

@@ -42,7 +42,7 @@ LinePair lines_around(const CellComplex& complex, std::size_t face) {
     for (std::size_t j = i + 1; j < sides.size(); ++j) {
       const CellComplex::Edge& a = complex.edges[static_cast<std::size_t>(sides[i])];
       const CellComplex::Edge& b = complex.edges[static_cast<std::size_t>(sides[j])];
-      if (a.line < 0 || b.line < 0 || a.line == b.line) continue;
+      if (!complex.on_wall_line(a) || !complex.on_wall_line(b) || a.line == b.line) continue;
       if (const double apart = distance_apart(complex, a, b); apart < closest) {
         closest = apart;
         best = std::minmax(a.line, b.line);

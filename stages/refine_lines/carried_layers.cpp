@@ -60,7 +60,7 @@ Loads find_loads(const CellComplex& complex, const FaceWeights& weights,
     const CellComplex::Edge& edge = complex.edges[complex.edge_of_wall(face.index)];
     const float seen = weights.wall_omega[face.index];
     const bool surface = separates(face, label);
-    if (edge.line < 0 || (!surface && !weights.is_surely_wall(face.index))) {
+    if (!complex.on_wall_line(edge) || (!surface && !weights.is_surely_wall(face.index))) {
       return;
     }
     const auto i = static_cast<std::size_t>(edge.line);

@@ -23,7 +23,7 @@ std::vector<std::vector<Piece>> find_pieces(const CellComplex& complex,
                                             const CarriedRuns& carried) {
   std::vector<std::vector<Piece>> pieces(complex.lines.size());
   for (const CellComplex::Edge& edge : complex.edges) {
-    if (edge.line < 0) {
+    if (!complex.on_wall_line(edge)) {
       continue;
     }
     const Line2& line = complex.lines[static_cast<std::size_t>(edge.line)].line;

@@ -76,7 +76,7 @@ std::vector<OneSidedWall> find_one_sided(const CellComplex& complex, const FaceW
   std::map<std::pair<std::int32_t, bool>, OneSidedWall> walls;
   for (std::size_t edge = 0; edge < complex.edges.size(); ++edge) {
     const std::int32_t line = complex.edges[edge].line;
-    if (line < 0) {
+    if (!complex.on_wall_line(complex.edges[edge])) {
       continue;
     }
     const std::int32_t left = walk_beside(complex, edge, true, kBeside);
@@ -129,7 +129,7 @@ double usual_thickness(const CellComplex& complex, const std::vector<std::uint8_
     for (std::size_t layer = 0; layer < complex.layers(); ++layer) {
       const CellComplex::Edge& e = complex.edges[edge];
       const bool left = is_empty(complex, label, e.left, layer);
-      if (e.line < 0 || left == is_empty(complex, label, e.right, layer)) {
+      if (!complex.on_wall_line(e) || left == is_empty(complex, label, e.right, layer)) {
         continue;
       }
       // Into the solid side, up to the first empty face of the plan.
@@ -138,7 +138,8 @@ double usual_thickness(const CellComplex& complex, const std::vector<std::uint8_
                              complex.vertices[static_cast<std::size_t>(e.v1)]);
       walk_beside(complex, edge, !left, kThickest, [&](std::size_t other, bool from_left) {
         const CellComplex::Edge& o = complex.edges[other];
-        if (thickness == 0 && o.line >= 0 && is_empty(complex, label, from_left ? o.right : o.left, layer)) {
+        if (thickness == 0 && complex.on_wall_line(o) &&
+            is_empty(complex, label, from_left ? o.right : o.left, layer)) {
           thickness = std::abs(complex.lines[static_cast<std::size_t>(o.line)].line.distance(at));
         }
       });

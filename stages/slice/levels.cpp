@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
+#include <utility>
 
 #include "stages/slice/furniture.h"
 #include "stages/slice/plan_mask.h"
@@ -15,6 +17,8 @@ namespace roomcut::slice {
 namespace {
 
 constexpr double kHeadroom = 1.5;  // m; walls on a roof that are lower are a parapet
+constexpr double kCloses = 0.3;    // m; a cap so far beyond the last of a slope, which its last step needs
+constexpr double kPasses = 0.08;   // m; a plane that goes on farther beyond a level leaves it
 constexpr double kStep = 0.0025;   // m; grid on which the density is evaluated
 
 /// Density of horizontal area over height [m^2 per m].
@@ -204,73 +208,6 @@ bool only_furniture(const Candidate& candidate, const std::vector<Candidate>& al
       [&](const SurfaceComponent& surface) { return surface.area_m2 < smallest || stands_on(surface); });
 }
 
-/// The plan of all levels' surfaces.
-PlanMask footprint(const std::vector<Level>& levels, const HeightSurvey& survey,
-                   const std::vector<SurfaceCell>& cells) {
-  PlanMask plan(cells, survey.raster_m);
-  for (const SurfaceCell& cell : cells) {
-    const bool in_level = std::any_of(levels.begin(), levels.end(), [&](const Level& level) {
-      return level.lo <= cell.z && cell.z <= level.hi;
-    });
-    if (in_level) plan.add(cell);
-  }
-  return plan;
-}
-
-/// Sloped area per height bin between two heights, its sum, and that of all upright area; only over the
-/// building and where no level lies above: what looks sloped under a ceiling is edges and furniture.
-struct Slopes {
-  double lo = 0, hi = 0;  ///< heights between which was looked [m]
-  std::map<std::int32_t, double> by_bin;
-  double sloped_m2 = 0, upright_m2 = 0;
-};
-
-Slopes slopes_between(const std::vector<UprightBlock>& upright, const PlanMask& building,
-                      const PlanMask& ceilings, double lo, double hi) {
-  Slopes slopes{lo, hi, {}};
-  for (const UprightBlock& block : upright) {
-    const double z = block.iz * kUprightHeight;
-    const double inside = (std::min(z + kUprightHeight, hi) - std::max(z, lo)) / kUprightHeight;
-    if (inside <= 0 || !building.contains(block) || ceilings.contains(block)) continue;
-    slopes.upright_m2 += inside * block.area_m2;
-    if (block.sloped_m2 <= 0) continue;
-    slopes.sloped_m2 += inside * block.sloped_m2;
-    slopes.by_bin[block.iz] += inside * block.sloped_m2;
-  }
-  return slopes;
-}
-
-double area_between(const VerticalHistogram& histogram, double lo, double hi) {
-  double area = 0;
-  for (std::size_t i = 0; i < histogram.area_m2.size(); ++i) {
-    const double z = histogram.z0 + (static_cast<double>(i) + 0.5) * histogram.bin_m;
-    if (lo < z && z < hi) area += histogram.area_m2[i];
-  }
-  return area;
-}
-
-/// The height below which that share of the sloped area lies; inside a bin it is taken to be spread evenly,
-/// so that where the bins begin has no say.
-double height_of(const Slopes& slopes, double share) {
-  const double wanted = share * slopes.sloped_m2;
-  double below = 0, z = 0;
-  for (const auto& [bin, here] : slopes.by_bin) {
-    const double low = std::max(bin * kUprightHeight, slopes.lo);
-    const double high = std::min((bin + 1) * kUprightHeight, slopes.hi);
-    z = low + std::clamp((wanted - below) / here, 0.0, 1.0) * (high - low);
-    below += here;
-    if (below >= wanted) break;
-  }
-  return z;
-}
-
-/// Heights between which the bulk of the area lies: without 1 % at both ends, which go on a little, half a
-/// bin.
-std::pair<double, double> bulk(const Slopes& slopes) {
-  const double on = 0.5 * kUprightHeight;
-  return {height_of(slopes, 0.01) - on, height_of(slopes, 0.99) + on};
-}
-
 /// How far area goes on beyond a level, given outwards per height bin [m]; 0 when it is too little to count.
 /// Inside a bin it is taken to be spread evenly; half a bin more, since the last hundredth goes on a little.
 double reach_beyond(const std::map<std::int32_t, double>& beyond, double total, double level_z) {
@@ -283,6 +220,22 @@ double reach_beyond(const std::map<std::int32_t, double>& beyond, double total, 
     left -= area;
   }
   return 0;
+}
+
+/// The lowest and the highest place of all planes.
+std::pair<double, double> heights_of(const std::vector<SlopedPlane>& planes) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const SlopedPlane& plane : planes) {
+    const auto [from, to] = plane.range();
+    low = std::min(low, from);
+    high = std::max(high, to);
+  }
+  return {low, high};
+}
+
+Level cap_at(double z) {
+  return {z, z, z, 0, 0, true};
 }
 
 }  // namespace
@@ -334,9 +287,25 @@ std::vector<Level> find_levels(const HeightSurvey& survey, const std::vector<Sur
   return levels;
 }
 
+PlanMask footprint(const std::vector<Level>& levels, const HeightSurvey& survey,
+                   const std::vector<SurfaceCell>& cells) {
+  PlanMask plan(cells, survey.raster_m);
+  for (const SurfaceCell& cell : cells) {
+    const bool in_level = std::any_of(levels.begin(), levels.end(), [&](const Level& level) {
+      return level.lo <= cell.z && cell.z <= level.hi;
+    });
+    if (in_level) plan.add(cell);
+  }
+  return plan;
+}
+
 void add_caps(std::vector<Level>& levels, const HeightSurvey& survey, const std::vector<SurfaceCell>& cells,
-              double reach_m) {
-  if (levels.empty()) return;
+              const std::vector<SlopedPlane>& planes, double reach_m) {
+  const auto [bottom, top] = heights_of(planes);
+  if (levels.empty()) {
+    if (!planes.empty()) levels = {cap_at(bottom - kCloses), cap_at(top + kCloses)};
+    return;
+  }
   const PlanMask plan = footprint(levels, survey, cells);
   std::map<std::int32_t, double> above, below;  // below: downwards, of the mirrored heights
   double total = 0;
@@ -351,46 +320,20 @@ void add_caps(std::vector<Level>& levels, const HeightSurvey& survey, const std:
   }
   const double up = reach_beyond(above, total, levels.back().z);
   const double down = reach_beyond(below, total, -levels.front().z);
-  const bool roof = levels.size() > 2 && up < kHeadroom && is_floor(levels.back(), survey, cells);
+  const bool slopes_up = top > levels.back().z + kPasses;
+  const bool slopes_down = bottom < levels.front().z - kPasses;
+  const bool roof =
+      !slopes_up && levels.size() > 2 && up < kHeadroom && is_floor(levels.back(), survey, cells);
   if (up > 0 && roof) {
     levels.pop_back();
-  } else if (up > 0) {
-    const double z = levels.back().z + up;
-    levels.push_back({z, z, z, 0, 0, true});
+  } else if (up > 0 || slopes_up) {
+    const double walls = levels.back().z + up;
+    levels.push_back(cap_at(slopes_up ? std::max(walls, top + kCloses) : walls));
   }
-  if (down > 0) {
-    const double z = levels.front().z - down;
-    levels.insert(levels.begin(), {z, z, z, 0, 0, true});
+  if (down > 0 || slopes_down) {
+    const double walls = levels.front().z - down;
+    levels.insert(levels.begin(), cap_at(slopes_down ? std::min(walls, bottom - kCloses) : walls));
   }
-}
-
-void add_steps(std::vector<Level>& levels, const HeightSurvey& survey, const std::vector<SurfaceCell>& cells,
-               double step_m) {
-  constexpr double kSmallest = 15;  // m^2
-  constexpr double kShare = 0.2;    // of the upright area: edges and furniture look sloped, too
-  constexpr double kEdge = 0.15;    // m; where floors and ceilings meet walls
-  constexpr double kSteep = 2;      // times the horizontal area: a gentle vault stays flat
-  const PlanMask building = footprint(levels, survey, cells);
-  PlanMask ceilings(cells, survey.raster_m);  // of all levels above
-  std::vector<Level> steps;
-  for (std::size_t k = levels.empty() ? 0 : levels.size() - 1; k-- > 0;) {
-    for (const SurfaceCell& cell : cells) {
-      if (levels[k + 1].lo <= cell.z && cell.z <= levels[k + 1].hi) ceilings.add(cell);
-    }
-    const Slopes slopes =
-        slopes_between(survey.upright, building, ceilings, levels[k].hi + kEdge, levels[k + 1].lo - kEdge);
-    if (slopes.sloped_m2 < std::max(kSmallest, kShare * slopes.upright_m2)) continue;
-    const auto [lo, hi] = bulk(slopes);
-    if (slopes.sloped_m2 < kSteep * area_between(survey.horizontal, lo, hi)) continue;
-    const int n = static_cast<int>(std::lround((hi - lo) / step_m));
-    for (int i = 0; i < n; ++i) {
-      const double z = lo + (i + 0.5) * (hi - lo) / n;
-      if (z < levels[k].hi + 0.5 * step_m || z > levels[k + 1].lo - 0.5 * step_m) continue;
-      steps.push_back({z, z, z, 0, 0, false, true});
-    }
-  }
-  levels.insert(levels.end(), steps.begin(), steps.end());
-  std::sort(levels.begin(), levels.end(), [](const Level& a, const Level& b) { return a.z < b.z; });
 }
 
 }  // namespace roomcut::slice

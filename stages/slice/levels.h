@@ -3,7 +3,9 @@
 
 #include <vector>
 
+#include "common/geometry/sloped_plane.h"
 #include "common/slices/slices.h"
+#include "stages/slice/plan_mask.h"
 #include "stages/slice/surface_graph.h"
 
 namespace roomcut::slice {
@@ -38,19 +40,16 @@ std::vector<HeightMode> height_modes(const std::vector<SurfaceCell>& cells, cons
 std::vector<Level> find_levels(const HeightSurvey& survey, const std::vector<SurfaceCell>& cells,
                                const LevelRules& rules, std::vector<Level>* rejected = nullptr);
 
+/// The plan of all levels' surfaces.
+PlanMask footprint(const std::vector<Level>& levels, const HeightSurvey& survey,
+                   const std::vector<SurfaceCell>& cells);
+
 /// Adds a level where walls or sloped surfaces over the building's own footprint go on farther than `reach_m`
 /// beyond the lowest or highest level: the floor or ceiling there was not seen. Less than 1 m^2 or 2 % of all
-/// upright area does not count, and the last 1 % of what goes on may stick out. A highest level of three or
-/// more on which walls of less than 1.5 m stand is a roof with its parapet, scanned from above: it is taken
-/// out.
+/// upright area does not count, and the last 1 % of what goes on may stick out. Where planes go on, the level
+/// lies 0.3 m beyond the last of them. A highest level of three or more on which walls of less than 1.5 m
+/// stand, and no sloped ceiling, is a roof with its parapet, scanned from above: it is taken out.
 void add_caps(std::vector<Level>& levels, const HeightSurvey& survey, const std::vector<SurfaceCell>& cells,
-              double reach_m);
-
-/// Adds levels about `step_m` apart between two levels where roofs are: at least 15 m^2, and a fifth of the
-/// upright surface over the building that has no level above it, are sloped, and twice as much as lies level
-/// there. A model of level planes turns a slope into stairs. The slope's bulk, without 1 % at both ends, is
-/// cut into equal steps with a level at the middle of each, none nearer than half a step to another level.
-void add_steps(std::vector<Level>& levels, const HeightSurvey& survey, const std::vector<SurfaceCell>& cells,
-               double step_m);
+              const std::vector<SlopedPlane>& planes, double reach_m);
 
 }  // namespace roomcut::slice

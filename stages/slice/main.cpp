@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
+#include <numbers>
 
 #include "common/cli/run_stage.h"
 #include "common/cloud/cloud_io.h"
@@ -20,6 +21,10 @@ void report(StageRun& run, const SliceResult& result) {
   for (const Level& level : slices.levels) {
     run.count(level.cap ? "level (cap)" : level.step ? "level (step of a slope)" : "level", level.z, "m");
   }
+  for (const SlopedPlane& plane : slices.planes) {
+    run.count(plane.ceiling ? "sloped ceiling" : "sloped floor",
+              std::atan(plane.gradient.norm()) * 180 / std::numbers::pi, "deg");
+  }
   run.count("levels", static_cast<double>(slices.levels.size()));
   run.count("surfaces too small for a level", static_cast<double>(result.rejected.size()));
   run.count("wall cells", static_cast<double>(cells));
@@ -38,10 +43,10 @@ void report(StageRun& run, const SliceResult& result) {
 int main(int argc, char** argv) {
   SliceParams params;
   StageInfo info{"slice",
-                 6,
+                 7,
                  "Finds floors and ceilings in the height histogram and the wall evidence between them.",
                  {{"cloud", "points in tiles, from ingest"}},
-                 {{"slices", "levels, histogram, wall slices"}},
+                 {{"slices", "levels, sloped planes, histogram, wall slices"}},
                  {}};
   return run_stage(argc, argv, info, parameters(params), [&params](StageRun& run) {
     const CloudReader cloud(run.input("cloud"));

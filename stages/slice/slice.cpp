@@ -10,6 +10,8 @@
 #include "common/geometry/preferred_number.h"
 #include "stages/slice/levels.h"
 #include "stages/slice/open_edges.h"
+#include "stages/slice/planes.h"
+#include "stages/slice/steps.h"
 #include "stages/slice/surfaces.h"
 #include "stages/slice/survey.h"
 #include "stages/slice/wall_slices.h"
@@ -109,11 +111,19 @@ void require_vertical(const HeightSurvey& survey, const std::vector<OccupancyGri
 SliceResult slice_cloud(const CloudHeader& header, const TileSource& tiles, const SliceParams& params) {
   SliceResult result;
   const LevelRules rules = level_rules(header, params, result.choices);
-  const HeightSurvey survey = survey_heights(header, tiles, rules.raster_m, kHistogramBin, params.by_area);
-  std::vector<SurfaceCell> cells = surface_cells(survey.patches, rules.noise_m);
-  if (params.drift) measure_drift(cells, rules.raster_m, rules.noise_m);
-
   Slices& slices = result.slices;
+  HeightSurvey survey = survey_heights(header, tiles, rules.raster_m, kHistogramBin, params.by_area);
+  std::vector<SurfaceCell> cells = surface_cells(survey.patches, rules.noise_m);
+  std::vector<SurfaceCell> with_planes;  // where nothing slopes they are the same
+  const SlopedSurfaces sloped = params.step_m > 0 ? find_planes(survey, rules.noise_m) : SlopedSurfaces{};
+  slices.planes = sloped.planes;
+  if (!slices.planes.empty()) {
+    with_planes = std::move(cells);
+    remove_planes(sloped, rules.noise_m, survey);
+    cells = surface_cells(survey.patches, rules.noise_m);
+  }
+  std::vector<SurfaceVoxel>().swap(survey.voxels);
+  if (params.drift) measure_drift(cells, rules.raster_m, rules.noise_m);
   slices.frame = header.frame;
   slices.bbox_min = header.bbox_min;
   slices.bbox_max = header.bbox_max;
@@ -121,16 +131,16 @@ SliceResult slice_cloud(const CloudHeader& header, const TileSource& tiles, cons
   slices.density = header.density;
   slices.histogram = survey.horizontal;
   slices.levels = find_levels(survey, cells, rules, &result.rejected);
-  add_caps(slices.levels, survey, cells, params.cap_reach_m);
+  add_caps(slices.levels, survey, cells, slices.planes, params.cap_reach_m);
   require_levels(survey, slices.levels, result.rejected);
-  if (params.step_m > 0) add_steps(slices.levels, survey, cells, params.step_m);
+  if (params.step_m > 0) add_steps(slices.levels, survey, cells, slices.planes, params.step_m);
 
   slices.tau_m = choose_tau(header, params, result.choices);
-  const auto ranges =
-      evidence_ranges(slices.levels, params.tall_slice_m, params.evidence_share, 0.5 * slices.tau_m);
+  const auto ranges = evidence_ranges(slices.levels, params.tall_slice_m, params.evidence_share,
+                                      slices.planes, 0.5 * slices.tau_m);
   slices.wall_slices = occupy_wall_slices(tiles, ranges, slices.tau_m, params.upright_only);
   if (params.open_edges) {
-    result.open_edges = open_edges(survey, cells, slices.levels);
+    result.open_edges = open_edges(survey, with_planes.empty() ? cells : with_planes, slices.levels);
     for (const OpenEdge& edge : result.open_edges) {
       add_open_edge(edge, slices.tau_m, slices.wall_slices[edge.level - 1]);
     }

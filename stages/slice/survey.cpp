@@ -40,6 +40,7 @@ struct Sums {
   std::vector<std::int64_t> histogram;
   CellTable<PatchSum> patches;
   CellTable<AreaSum> upright;
+  CellTable<VoxelSum> voxels;
 };
 
 void add_patch(CellTable<PatchSum>& table, const CloudTile& tile, std::size_t i, double raster_m,
@@ -101,10 +102,12 @@ HeightSurvey survey_heights(const CloudHeader& header, const TileSource& tiles, 
   const double z0 = (std::floor(header.bbox_min.z() / bin_m) - 1) * bin_m;
   const auto bins = static_cast<std::size_t>(std::floor((header.bbox_max.z() - z0) / bin_m)) + 2;
   tbb::enumerable_thread_specific<Sums> threads([bins] {
-    return Sums{std::vector<std::int64_t>(bins, 0), {}, {}};
+    return Sums{std::vector<std::int64_t>(bins, 0), {}, {}, {}};
   });
   CellParts<PatchSum, decltype(by_column)> patches(by_column);
   CellParts<AreaSum, decltype(by_column)> upright(by_column);
+  CellParts<VoxelSum, decltype(by_column)> voxels(by_column);
+  const VoxelSize size = voxel_size(raster_m);
   const float mean_m2 = header.density > 0 ? static_cast<float>(1 / header.density) : 1.0F;
 
   tiles([&](std::size_t index, const CloudTile& tile) {
@@ -120,15 +123,21 @@ HeightSurvey survey_heights(const CloudHeader& header, const TileSource& tiles, 
       } else if (surface != SurfaceClass::kNone) {
         add_upright(sums.upright, tile, i);
       }
+      if (surface == SurfaceClass::kHorizontal || surface == SurfaceClass::kSloped) {
+        add_to_voxel(sums.voxels, size, {tile.x[i], tile.y[i], tile.z[i]}, tile.area[i]);
+      }
     }
     patches.add(index, sums.patches.take());
     upright.add(index, sums.upright.take());
+    voxels.add(index, sums.voxels.take());
   });
 
   HeightSurvey survey;
   survey.raster_m = raster_m;
   survey.patches = to_patches(patches.take());
   survey.upright = to_blocks(upright.take());
+  survey.voxel = size;
+  survey.voxels = to_voxels(voxels.take(), size);
   survey.horizontal = histogram(z0, bin_m, threads, bins);
   return survey;
 }

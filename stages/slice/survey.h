@@ -6,6 +6,7 @@
 
 #include "common/slices/slices.h"
 #include "stages/slice/tile_source.h"
+#include "stages/slice/voxels.h"
 
 namespace roomcut::slice {
 
@@ -33,6 +34,8 @@ struct HeightSurvey {
   std::vector<SurfacePatch> patches;  ///< sorted by (iy, ix, z)
   VerticalHistogram horizontal;       ///< area of horizontal points
   std::vector<UprightBlock> upright;  ///< sorted by (iy, ix, iz)
+  VoxelSize voxel;
+  std::vector<SurfaceVoxel> voxels;  ///< of horizontal and sloped points, sorted by (iy, ix, iz)
 };
 
 /// Sums horizontal, wall and sloped points over heights (one pass). Every point weighs the area it stands

@@ -151,7 +151,14 @@ double contour_between(const std::vector<Level>& levels, std::size_t k) {
 }  // namespace
 
 std::vector<EvidenceRange> evidence_ranges(const std::vector<Level>& levels, double tall_slice_m,
-                                           double evidence_share, double contour_half_m) {
+                                           double evidence_share, const std::vector<SlopedPlane>& planes,
+                                           double contour_half_m) {
+  const auto passed = [&planes](double z) {
+    return std::any_of(planes.begin(), planes.end(), [z](const SlopedPlane& plane) {
+      const auto [low, high] = plane.range();
+      return low <= z && z <= high;
+    });
+  };
   std::vector<EvidenceRange> ranges;
   for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
     EvidenceRange range{levels[k].hi, levels[k + 1].lo, std::max(0.0, levels[k + 1].lo - levels[k].hi)};
@@ -161,6 +168,7 @@ std::vector<EvidenceRange> evidence_ranges(const std::vector<Level>& levels, dou
       range.bins = std::clamp(static_cast<int>(std::lround((range.hi - range.lo) / kBinHeight)), 1, kMaxBins);
     }
     range.contour_z = contour_between(levels, k);
+    if (passed(range.contour_z)) range.contour_z = std::numeric_limits<double>::quiet_NaN();
     range.contour_half_m = contour_half_m;
     ranges.push_back(range);
   }

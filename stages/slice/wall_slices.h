@@ -21,9 +21,11 @@ struct EvidenceRange {
 /// The ranges of all wall slices: between the bands of the levels; of slices higher than `tall_slice_m` only
 /// the top `evidence_share`, where furniture does not reach. Under a cap no ceiling was seen, so the whole
 /// slice counts. Between two steps of a slope the contour at half height, twice `contour_half_m` thick,
-/// counts as wall: there the stairs rise that stand for the slope.
+/// counts as wall: there the stairs rise that stand for the slope. Not at heights that planes pass: there
+/// they say where the stairs rise.
 std::vector<EvidenceRange> evidence_ranges(const std::vector<Level>& levels, double tall_slice_m,
-                                           double evidence_share, double contour_half_m = 0.02);
+                                           double evidence_share, const std::vector<SlopedPlane>& planes = {},
+                                           double contour_half_m = 0.02);
 
 /// Occupancy of the wall slices (paper §2: down-sampling by an occupancy map of edge tau), one pass over the
 /// points. Wall points and points without a plane count, horizontal ones do not, sloped ones on

@@ -49,9 +49,13 @@ LevelRasters::Occupied LevelRasters::occupied_bins(const Plan& plan) const {
   tbb::parallel_for(std::size_t{0}, occupied.size(), [&](std::size_t level) {
     occupied[level].assign(faces_.grid().size(), 0);
     const std::size_t base = level * faces_.pieces();
-    on_.for_each(base, base + faces_.pieces(), [&](std::size_t i, std::uint32_t /*count*/) {
+    const auto occupy = [&](std::size_t i, std::uint32_t /*count*/) {
       occupied[level][plan.bin_of_piece[i - base]] = 1;
-    });
+    };
+    on_.for_each(base, base + faces_.pieces(), occupy);
+    if (!complex_.planes.empty()) {
+      sloped_.for_each(base, base + faces_.pieces(), occupy);
+    }
   });
   return occupied;
 }

@@ -20,9 +20,9 @@ double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
 
 LineGrid::LineGrid(const CellComplex& complex, double reach, double azimuth) : grid_(complex, kBin) {
   for (const CellComplex::Line& l : complex.lines) {
-    std::vector<std::uint8_t> carries(complex.layers(), l.layers.empty() ? 1 : 0);
-    for (const std::int32_t layer : l.layers) {
-      carries[static_cast<std::size_t>(layer)] = 1;
+    std::vector<std::uint8_t> carries;
+    for (std::size_t layer = 0; layer < complex.layers(); ++layer) {
+      carries.push_back(l.carries(layer) ? 1 : 0);
     }
     plan_lines_.push_back({l.line.normal(), l.line.direction(), l.line.d, l.line.theta, carries,
                            azimuths_on(l.line.theta, azimuth)});
@@ -30,7 +30,7 @@ LineGrid::LineGrid(const CellComplex& complex, double reach, double azimuth) : g
   std::vector<std::pair<std::size_t, std::int32_t>> entries;
   const double touch = reach + kBin * 0.7072;  // half a bin's diagonal
   for (const CellComplex::Edge& edge : complex.edges) {
-    if (edge.line < 0) {
+    if (!complex.on_wall_line(edge)) {
       continue;
     }
     const Vec2& a = complex.vertices[static_cast<std::size_t>(edge.v0)];

@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
   WeighFacesParams params;
   StageInfo info;
   info.name = "weigh_faces";
-  info.revision = 9;
+  info.revision = 10;
   info.summary =
       "Measures how far each face of the cell complex is covered by points, and which side of it is empty";
   info.inputs = {{"cells", "Cell complex"}, {"cloud", "Points in tiles"}};

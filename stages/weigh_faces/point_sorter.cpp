@@ -143,6 +143,17 @@ void PointSorter::add(const Vec3& point, SurfaceClass surface, std::uint8_t azim
     }
   }
   const double off = std::abs(near.dz);
+  // At a wall a point without a class, or of a sloped one, is the wall's: between the two faces of a thin
+  // one, where noise mixes them, they would make a floor.
+  const double clear = std::max(tolerances_.wall_reach, tolerances_.beside_low);
+  const bool at_wall = std::any_of(candidates_.begin(), candidates_.end(),
+                                   [&](const Candidate& c) { return std::abs(c.e) < clear; });
+  if (const Slopes::Found on = slopes_.at(point); on.plane != nullptr && on.distance < off &&
+                                                  surface != SurfaceClass::kWall &&
+                                                  !(surface == SurfaceClass::kNone && at_wall)) {
+    add_on_plane(p, on);
+    return;
+  }
   const bool flat =
       surface == SurfaceClass::kHorizontal && off < std::min(tolerances_.level_reach, near.reach);
   const bool foot = surface == SurfaceClass::kHorizontal && !flat;
@@ -150,11 +161,6 @@ void PointSorter::add(const Vec3& point, SurfaceClass surface, std::uint8_t azim
   if (wall >= 0) {
     walls_.add_on(wall, line(wall).along(p), z);
   }
-  // At a wall a point without a class, or of a sloped one, is the wall's: between the two faces of a thin
-  // one, where noise mixes them, they would make a floor.
-  const double clear = std::max(tolerances_.wall_reach, tolerances_.beside_low);
-  const bool at_wall = std::any_of(candidates_.begin(), candidates_.end(),
-                                   [&](const Candidate& c) { return std::abs(c.e) < clear; });
   const bool loose =
       surface == SurfaceClass::kNone && off < std::min(tolerances_.level_tight, near.reach) && !at_wall;
   const bool on_level = flat || loose;
@@ -178,6 +184,17 @@ void PointSorter::add(const Vec3& point, SurfaceClass surface, std::uint8_t azim
       add_inside(p, z, near);
     }
   }
+}
+
+void PointSorter::add_on_plane(const Vec2& p, const Slopes::Found& on) {
+  if (const std::int64_t piece = levels_.faces().find(p); piece >= 0) {
+    if (on.plane->ceiling) {
+      levels_.add_sloped(on.level, static_cast<std::size_t>(piece));
+    } else {
+      levels_.add_on(on.level, static_cast<std::size_t>(piece));
+    }
+  }
+  add_beside_walls(p, on.level);
 }
 
 void PointSorter::add_sloped(std::size_t piece, const NearLevel& near, std::size_t layer, double z) {

@@ -9,6 +9,7 @@
 #include "common/cloud/cloud.h"
 #include "stages/weigh_faces/level_rasters.h"
 #include "stages/weigh_faces/line_grid.h"
+#include "stages/weigh_faces/slopes.h"
 #include "stages/weigh_faces/wall_rasters.h"
 
 namespace roomcut::weigh_faces {
@@ -18,9 +19,11 @@ namespace roomcut::weigh_faces {
 class PointSorter {
  public:
   PointSorter(const CellComplex& complex, const Tolerances& tolerances, const LevelFinder& heights,
-              const LineGrid& lines, WallRasters& walls, LevelRasters& levels, SparseCounts& inside)
+              const Slopes& slopes, const LineGrid& lines, WallRasters& walls, LevelRasters& levels,
+              SparseCounts& inside)
       : complex_(complex),
         heights_(heights),
+        slopes_(slopes),
         tolerances_(tolerances),
         lines_(lines),
         walls_(walls),
@@ -43,6 +46,7 @@ class PointSorter {
   NearLevel nearest_level(double z) const;
   std::int32_t wall_of(SurfaceClass surface, std::uint8_t azimuth) const;
   void add_beside_walls(const Vec2& p, std::size_t level);
+  void add_on_plane(const Vec2& p, const Slopes::Found& on);
   void add_sloped(std::size_t piece, const NearLevel& near, std::size_t layer, double z);
   void add_beside_levels(const Vec2& p, double z);
   void add_inside(const Vec2& p, double z, const NearLevel& near);
@@ -53,6 +57,7 @@ class PointSorter {
 
   const CellComplex& complex_;
   const LevelFinder& heights_;
+  const Slopes& slopes_;
   const Tolerances& tolerances_;
   const LineGrid& lines_;
   WallRasters& walls_;

@@ -8,9 +8,16 @@
 #include "stages/weigh_faces/line_grid.h"
 #include "stages/weigh_faces/point_sorter.h"
 #include "stages/weigh_faces/seen_through.h"
+#include "stages/weigh_faces/slopes.h"
 #include "stages/weigh_faces/wall_rasters.h"
 
 namespace roomcut::weigh_faces {
+
+namespace {
+
+constexpr double kRim_m = 0.3;  // from the outermost points of a sloped plane to the walls around it
+
+}  // namespace
 
 struct FaceWeigher::State {
   State(const CellComplex& c, const CloudHeader& cloud, const WeighFacesParams& p)
@@ -18,6 +25,7 @@ struct FaceWeigher::State {
         params(p),
         tolerances(resolve_tolerances(p, cloud)),
         heights(c.levels),
+        slopes(c, tolerances.level_reach, kRim_m),
         lines(c, std::max(tolerances.wall_alone, tolerances.beside_high), tolerances.azimuth),
         walls(c, tolerances),
         levels(c, tolerances),
@@ -27,6 +35,7 @@ struct FaceWeigher::State {
   WeighFacesParams params;
   Tolerances tolerances;
   LevelFinder heights;
+  Slopes slopes;
   LineGrid lines;
   WallRasters walls;
   LevelRasters levels;
@@ -56,8 +65,8 @@ const Tolerances& FaceWeigher::tolerances() const {
 }
 
 void FaceWeigher::add(const CloudTile& tile) {
-  PointSorter sorter(state_->complex, state_->tolerances, state_->heights, state_->lines, state_->walls,
-                     state_->levels, state_->inside);
+  PointSorter sorter(state_->complex, state_->tolerances, state_->heights, state_->slopes, state_->lines,
+                     state_->walls, state_->levels, state_->inside);
   for (std::size_t i = 0; i < tile.size(); ++i) {
     sorter.add({tile.x[i], tile.y[i], tile.z[i]}, static_cast<SurfaceClass>(tile.surface[i]),
                tile.azimuth[i]);
@@ -72,6 +81,7 @@ FaceWeights FaceWeigher::weigh() const {
   if (!state_->params.sides) forget_sides(weights);
   if (state_->params.seen_through) discount_seen_through(state_->complex, weights);
   if (state_->params.continue_walls) continue_walls(state_->complex, weights);
+  cover_risers(state_->complex, weights);
   weights.cell_points.resize(state_->complex.cells());
   for (std::size_t c = 0; c < weights.cell_points.size(); ++c) {
     weights.cell_points[c] = state_->inside.at(c);

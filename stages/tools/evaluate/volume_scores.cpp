@@ -56,7 +56,7 @@ class ColumnComparison {
     input_.finder.prisms_at(x, y, prisms_);
     for (const std::int32_t i : prisms_) {
       const TruthRoom& room = input_.rooms[static_cast<std::size_t>(i)];
-      room_parts_.assign(1, {room.floor, room.ceiling});
+      clip(truth_parts_, room.floor, room.ceiling, room_parts_);  // less than the prism under a slope
       add_room(i);
     }
     if (any_body_) {

@@ -12,7 +12,7 @@ namespace roomcut::report {
 namespace {
 
 constexpr Colour kUnobserved{228, 180, 206}, kUnknown{240, 228, 66}, kSolid{225, 225, 225},
-    kRoom{245, 245, 245};
+    kRoom{245, 245, 245}, kCrease{170, 120, 60};
 
 std::string cell_title(const DataTerms& terms, const Labels* labels, std::size_t cell) {
   char text[200];
@@ -44,13 +44,15 @@ Picture draw_partition(const std::string& stage, const CellComplex& complex) {
   draw_edges(svg, complex, nullptr, 0);
   for (std::size_t i = 0; i < complex.lines.size(); ++i) {
     const CellComplex::Line& line = complex.lines[i];
-    svg.line(line.line.at(line.t0), line.line.at(line.t1), categorical_colour(static_cast<int>(i)), 2,
-             line.wall_id);
+    const bool wall = line.plane < 0;
+    svg.line(line.line.at(line.t0), line.line.at(line.t1),
+             wall ? categorical_colour(static_cast<int>(i)) : kCrease, wall ? 2 : 1, line.wall_id);
   }
-  return {
-      stage, stage + ".svg", "The plan cut into " + std::to_string(complex.faces()) + " convex faces",
-      "Grey: edges of the faces, the same in every layer. Coloured: the wall lines where points carry them.",
-      svg.str()};
+  return {stage, stage + ".svg", "The plan cut into " + std::to_string(complex.faces()) + " convex faces",
+          "Grey: edges of the faces, the same in every layer. Coloured: the wall lines where points carry "
+          "them. Brown, "
+          "thin: creases of sloped planes.",
+          svg.str()};
 }
 
 Picture draw_weights(const std::string& stage, const CellComplex& complex, const FaceWeights& weights,

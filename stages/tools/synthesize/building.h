@@ -7,11 +7,12 @@
 
 namespace roomcut::synthesize {
 
-/// An empty upright prism. The truth is the union of all prisms.
+/// An empty upright prism, that of a room cut by its slopes. The truth is the union of all prisms, without
+/// the solids.
 struct Prism {
   Polygon2 polygon;
   double z0 = 0, z1 = 0;         ///< [m], multiples of 1 µm
-  int room_a = -1, room_b = -1;  ///< a room: itself and -1; a doorway or shaft: the two rooms it joins
+  int room_a = -1, room_b = -1;  ///< a room: itself and -1; a doorway, shaft or niche: the rooms it joins
   bool is_room() const { return room_b < 0; }
 };
 
@@ -24,9 +25,26 @@ struct WallOpening {
   int room_a = -1, room_b = -1;  ///< room_b: doors only
 };
 
+/// What is solid in one room from floor to ceiling: a column or pilaster.
+struct Solid {
+  Polygon2 polygon;
+  int room = -1;
+};
+
+/// A niche (or, solid, a pilaster) as it was placed.
+struct PlacedNiche {
+  Polygon2 polygon;  ///< from the room's wall plane on
+  double z0 = 0, z1 = 0;
+  double width = 0, depth = 0;
+  int room = -1;
+  bool solid = false;
+};
+
 /// A scene with everything placed: what the truth and the scan are made from.
 struct Building {
   std::vector<Prism> prisms;
+  std::vector<Solid> solids;
+  std::vector<PlacedNiche> niches;
   std::vector<WallOpening> doors, windows;
   std::vector<SceneFurniture> furniture;
   std::vector<Vec3> stations;     ///< scanner positions

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "common/random/counter_random.h"
+#include "stages/tools/synthesize/elements.h"
 #include "stages/tools/synthesize/floor_plan.h"
 #include "stages/tools/synthesize/plan.h"
 
@@ -140,6 +141,7 @@ class Generator {
       below = std::move(rooms);
       floor += height + std::round(draw(0.2, 0.4) * 20) / 20;
     }
+    add_elements(spec_.elements, spec_.seed, scene_);
     close_rooms();
   }
 

@@ -18,12 +18,14 @@ struct FamilySpec {
   bool shafts = true;  ///< stairwells between the storeys
   double unscanned =
       0;  ///< share of the rooms that no scanner enters; each has a door to one that is entered
+  std::vector<std::string> elements;  ///< some of element_names()
 };
 
 const std::vector<std::string>& family_names();
 
 /// Adds a random building to `scene`: storeys, rooms, doors, shafts, windows. The floor plan is split
-/// recursively; walls, heights and doors are drawn from the family's ranges. Deterministic in the spec alone.
+/// recursively; walls, heights and doors are drawn from the family's ranges. At
+/// last the elements are added. Deterministic in the spec alone.
 void add_random_building(const FamilySpec& spec, Scene& scene);
 
 }  // namespace roomcut::synthesize

@@ -6,6 +6,7 @@
 #include "common/random/counter_random.h"
 #include "stages/tools/synthesize/building.h"
 #include "stages/tools/synthesize/plan.h"
+#include "stages/tools/synthesize/room_heights.h"
 
 namespace roomcut::synthesize {
 
@@ -13,6 +14,7 @@ namespace {
 
 constexpr std::uint64_t kStream = 0x6675726e;  // of the random numbers
 constexpr int kAttempts = 40;                  // per box
+constexpr double kLowest = 0.3;                // under a slope [m]
 constexpr double kDoorClearance = 1.0;         // from a doorway's middle to a box's corner or centre [m]
 
 struct Kind {
@@ -64,8 +66,7 @@ class Furnisher {
     SceneFurniture box;
     box.size_x = draw(kind->width_lo, kind->width_hi);
     box.size_y = draw(kind->depth_lo, kind->depth_hi);
-    box.z0 = room_->floor;
-    box.z1 = box.z0 + std::min(draw(kind->height_lo, kind->height_hi), room_->ceiling - room_->floor - 0.1);
+    const double height = draw(kind->height_lo, kind->height_hi);
     const std::size_t side = static_cast<std::size_t>(draw() * static_cast<double>(room_->polygon.size()));
     const Vec2& a = room_->polygon[side];
     const Vec2 ab = room_->polygon[(side + 1) % room_->polygon.size()] - a;
@@ -77,12 +78,28 @@ class Furnisher {
       box.centre = a + draw() * ab + draw(0.5, 6.0) * inwards;
       if (draw() < 0.3) box.rotation = draw(0, std::numbers::pi);
     }
+    stand(box, height);
     return box;
+  }
+
+  /// On the highest floor under it, and not through the ceiling.
+  void stand(SceneFurniture& box, double height) const {
+    double floor = room_->floor;
+    double ceiling = room_->ceiling;
+    for (const Vec2& p : corners(box)) {
+      floor = std::max(floor, floor_at(*room_, p));
+      ceiling = std::min(ceiling, ceiling_at(*room_, p));
+    }
+    box.z0 = floor;
+    box.z1 = floor + std::min(height, ceiling - floor - 0.1);
   }
 
   bool fits(const SceneFurniture& box, std::size_t room) const {
     const std::vector<Vec2> outline = corners(box);
-    if (borders_cross(outline, room_->polygon)) return false;
+    if (borders_cross(outline, room_->polygon) || box.z1 < box.z0 + kLowest) return false;
+    for (const SceneColumn& column : room_->columns) {
+      if (borders_cross(outline, column.polygon) || contains(outline, column.centre)) return false;
+    }
     for (const Vec2& p : outline) {
       if (!contains(room_->polygon, p)) return false;
     }

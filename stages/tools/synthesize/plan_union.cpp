@@ -9,11 +9,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "common/errors/codes.h"
 #include "stages/tools/synthesize/plan.h"
 #include "stages/tools/synthesize/plan_graph.h"
+#include "stages/tools/synthesize/room_heights.h"
 #include "stages/tools/synthesize/scene_limits.h"
 
 namespace roomcut::synthesize {
@@ -77,11 +79,19 @@ class Uniter {
       std::int32_t;  // room that fills a layer of a piece; kPassage = doorway or shaft; kUnset = nothing
   static constexpr Owner kPassage = -2;
   struct Piece {
-    std::vector<Owner> owner;  // per layer
+    std::vector<Owner> owner;           // per layer
+    std::vector<std::int32_t> surface;  // per height
     std::int32_t region = 0;
   };
 
   void collect_heights();
+  void collect_slopes();
+  std::vector<Polygon2> plans() const;
+  Piece solid_piece() const;
+  bool is_solid(int room, const Vec2& p) const;
+  void lay_slopes(const Prism& prism, const Vec2& p, Piece& piece) const;
+  std::int32_t region_of(const Piece& piece);
+  bool cross_between(const PlanUnion::Edge& edge, std::int32_t from, std::int32_t to) const;
   void overlay();
   Piece piece_at(const Vec2& p);
   void check_piece(const std::vector<std::int32_t>& prisms, const Piece& piece);
@@ -103,11 +113,13 @@ class Uniter {
   PlanUnion result_;
   Cdt cdt_;
   std::vector<Piece> pieces_;
-  std::map<std::vector<char>, std::int32_t> region_of_;
+  std::map<std::pair<std::vector<char>, std::vector<std::int32_t>>, std::int32_t> region_of_;
+  std::vector<std::int32_t> first_slope_;  // per room
 };
 
 PlanUnion Uniter::unite() {
   collect_heights();
+  collect_slopes();
   overlay();
   if (!problems_.empty()) return result_;
   collect_edges();
@@ -137,11 +149,31 @@ void Uniter::collect_heights() {
   }
 }
 
-/// The overlay of all plans; every triangle gets the index of its piece.
-void Uniter::overlay() {
+void Uniter::collect_slopes() {
+  for (const SceneRoom& room : scene_.rooms) {
+    first_slope_.push_back(static_cast<std::int32_t>(result_.heights.size() + result_.slopes.size()));
+    for (const SceneSlope& slope : room.slopes) result_.slopes.push_back({slope.gradient, slope.c});
+  }
+}
+
+/// What cuts the plan: prisms, solids, and where floors and ceilings of a room begin or meet.
+std::vector<Polygon2> Uniter::plans() const {
   std::vector<Polygon2> plans;
   for (const Prism& prism : building_.prisms) plans.push_back(prism.polygon);
-  const PlanGraph graph = cut_at_crossings(plans, kTolerance);
+  for (const Solid& solid : building_.solids) plans.push_back(solid.polygon);
+  for (const SceneRoom& room : scene_.rooms) {
+    if (room.slopes.empty()) continue;
+    for (const SceneSlope& slope : room.slopes) {
+      if (!slope.polygon.empty()) plans.push_back(slope.polygon);
+    }
+    for (const auto& [a, b] : creases(room)) plans.push_back({a, b});
+  }
+  return plans;
+}
+
+/// The overlay of all plans; every triangle gets the index of its piece.
+void Uniter::overlay() {
+  const PlanGraph graph = cut_at_crossings(plans(), kTolerance);
   result_.vertices = graph.vertices;
   std::vector<Cdt::Vertex_handle> handle;
   for (const Vec2& p : graph.vertices) {
@@ -150,10 +182,8 @@ void Uniter::overlay() {
   }
   for (const auto& segment : graph.segments) cdt_.insert_constraint(handle[segment[0]], handle[segment[1]]);
   for (auto face : cdt_.all_face_handles()) face->info() = kUnset;
-  const std::vector<char> solid(result_.heights.size() - 1, 0);
-  region_of_[solid] = 0;
-  result_.empty.push_back(solid);
-  pieces_.push_back({std::vector<Owner>(solid.size(), kUnset), 0});
+  pieces_.push_back(solid_piece());
+  region_of(pieces_.back());  // the first one
   flood(cdt_, cdt_.infinite_face(), 0);
   for (auto face : cdt_.finite_face_handles()) {
     if (face->info() != kUnset) continue;
@@ -169,9 +199,11 @@ Uniter::Piece Uniter::piece_at(const Vec2& p) {
   for (std::size_t i = 0; i < building_.prisms.size(); ++i) {
     if (contains(building_.prisms[i].polygon, p)) inside.push_back(static_cast<std::int32_t>(i));
   }
-  Piece piece{std::vector<Owner>(result_.heights.size() - 1, kUnset), 0};
+  Piece piece = solid_piece();
   for (const std::int32_t i : inside) {
     const Prism& prism = building_.prisms[i];
+    if (prism.is_room() && is_solid(prism.room_a, p)) continue;
+    if (prism.is_room()) lay_slopes(prism, p, piece);
     for (std::size_t k = layer_of(prism.z0); k < layer_of(prism.z1); ++k) {
       Owner& owner = piece.owner[k];
       if (prism.is_room() && owner >= 0) {
@@ -182,12 +214,52 @@ Uniter::Piece Uniter::piece_at(const Vec2& p) {
     }
   }
   check_piece(inside, piece);
+  piece.region = region_of(piece);
+  return piece;
+}
+
+Uniter::Piece Uniter::solid_piece() const {
+  Piece piece{std::vector<Owner>(result_.heights.size() - 1, kUnset), {}, 0};
+  piece.surface.resize(result_.heights.size());
+  std::iota(piece.surface.begin(), piece.surface.end(), 0);
+  return piece;
+}
+
+/// Whether p is where the room is none: in a column, or where its roof has come down to its floor.
+bool Uniter::is_solid(int room, const Vec2& p) const {
+  const SceneRoom& at = scene_.rooms[static_cast<std::size_t>(room)];
+  return floor_at(at, p) >= ceiling_at(at, p) ||
+         std::any_of(building_.solids.begin(), building_.solids.end(),
+                     [&](const Solid& solid) { return solid.room == room && contains(solid.polygon, p); });
+}
+
+/// Puts the room's slopes over p in the place of its highest and lowest level.
+void Uniter::lay_slopes(const Prism& prism, const Vec2& p, Piece& piece) const {
+  const SceneRoom& room = scene_.rooms[static_cast<std::size_t>(prism.room_a)];
+  const std::int32_t first = first_slope_[static_cast<std::size_t>(prism.room_a)];
+  const int lower = surface_at(room, p, false);
+  const int upper = surface_at(room, p, true);
+  if (lower >= 0) piece.surface[layer_of(prism.z0)] = first + lower;
+  if (upper >= 0) piece.surface[layer_of(prism.z1)] = first + upper;
+}
+
+/// The region of pieces that are empty in the same layers, between the same surfaces.
+std::int32_t Uniter::region_of(const Piece& piece) {
   std::vector<char> empty;
   for (const Owner owner : piece.owner) empty.push_back(owner == kUnset ? 0 : 1);
-  const auto [found, is_new] = region_of_.emplace(empty, static_cast<std::int32_t>(result_.empty.size()));
-  if (is_new) result_.empty.push_back(empty);
-  piece.region = found->second;
-  return piece;
+  std::vector<std::int32_t> surface = piece.surface;
+  for (std::size_t l = 0; l < surface.size(); ++l) {
+    const bool below = l > 0 && empty[l - 1] != 0;
+    const bool above = l < empty.size() && empty[l] != 0;
+    if (below == above) surface[l] = static_cast<std::int32_t>(l);
+  }
+  const auto [found, is_new] =
+      region_of_.emplace(std::pair{empty, surface}, static_cast<std::int32_t>(result_.empty.size()));
+  if (is_new) {
+    result_.empty.push_back(std::move(empty));
+    result_.surface.push_back(std::move(surface));
+  }
+  return found->second;
 }
 
 void Uniter::check_piece(const std::vector<std::int32_t>& prisms, const Piece& piece) {
@@ -240,6 +312,25 @@ void Uniter::collect_edges() {
             [](const auto& a, const auto& b) { return std::pair(a.v0, a.v1) < std::pair(b.v0, b.v1); });
 }
 
+/// Whether two surfaces of the regions beside an edge cross between two of its places.
+bool Uniter::cross_between(const PlanUnion::Edge& edge, std::int32_t from, std::int32_t to) const {
+  std::vector<std::int32_t> surfaces;
+  for (const std::int32_t region : {edge.left, edge.right}) {
+    for (std::size_t l = 0; l < result_.heights.size(); ++l) {
+      if (result_.changes(region, l)) surfaces.push_back(result_.surface[region][l]);
+    }
+  }
+  const auto difference = [&](std::int32_t a, std::int32_t b, std::int32_t v) {
+    return result_.height(a, result_.vertices[v]) - result_.height(b, result_.vertices[v]);
+  };
+  for (const std::int32_t a : surfaces) {
+    for (const std::int32_t b : surfaces) {
+      if (difference(a, b, from) > PlanUnion::kSame && difference(a, b, to) < -PlanUnion::kSame) return true;
+    }
+  }
+  return false;
+}
+
 /// Joins edges that go on straight between the same two regions.
 void Uniter::straighten() {
   std::vector<std::vector<std::size_t>> at(result_.vertices.size());
@@ -262,7 +353,8 @@ void Uniter::straighten() {
     const std::int32_t from = a_first ? a.v0 : b.v0;
     const std::int32_t to = a_first ? b.v1 : a.v1;
     if (a.left != b.left || a.right != b.right || from == to ||
-        !is_straight(result_.vertices[from], result_.vertices[v], result_.vertices[to])) {
+        !is_straight(result_.vertices[from], result_.vertices[v], result_.vertices[to]) ||
+        cross_between(a, from, to)) {
       continue;
     }
     a.v0 = from;

@@ -15,13 +15,53 @@ inline constexpr const char* kSceneRemedy =
 
 using Polygon2 = std::vector<Vec2>;  ///< corners, counter-clockwise, not closed [m]
 
-/// A room: the empty volume polygon × [floor, ceiling]. Walls are what lies between rooms.
+/// A part of a room's ceiling or floor at its own height or slope: z = gradient · p + c. A ceiling is the
+/// lowest, a floor the highest of what lies over each other.
+struct SceneSlope {
+  bool ceiling = true;
+  Vec2 gradient{0, 0};  ///< rise per metre, uphill
+  double c = 0;         ///< [m]
+  Polygon2 polygon;     ///< where it is; empty = in the whole room
+  double height(const Vec2& p) const { return gradient.dot(p) + c; }
+};
+
+/// A pier inside a room, solid from floor to ceiling.
+struct SceneColumn {
+  Polygon2 polygon;
+  Vec2 centre{0, 0};
+  double size_x = 0, size_y = 0;  ///< before the rotation; diameter of a round one [m]
+  bool round = false;
+};
+
+/// A recess of a room's wall, or (depth < 0) a pilaster before it.
+struct SceneNiche {
+  Vec2 at{0, 0};  ///< near its middle; projected on the nearest wall of the room [m]
+  double width = 0.6, depth = 0.1;
+  double sill = 0;    ///< above the room's floor [m]
+  double height = 0;  ///< 0 = up to the ceiling [m]
+};
+
+/// A circular part of a room's outline, counter-clockwise from one corner of the polygon to another.
+struct SceneArc {
+  Vec2 centre{0, 0};
+  double radius = 0;
+  Vec2 from{0, 0}, to{0, 0};  ///< ends, equal for a whole circle
+  bool bulges = true;         ///< the room lies on the centre's side
+};
+
+/// A room: the empty volume over a polygon from its floor to its ceiling, without its columns. Walls are what
+/// lies between rooms.
 struct SceneRoom {
   std::string name;  ///< unique in the scene
   int storey = 0;    ///< index into Scene::storeys
   Polygon2 polygon;
-  double floor = 0, ceiling = 0;  ///< [m]
+  double floor = 0, ceiling = 0;  ///< lowest and highest [m]
   bool scanned = true;            ///< tripod sampling: whether a scanner may stand here
+  std::vector<SceneSlope> slopes;
+  bool level_floor = true, level_ceiling = true;  ///< false: slopes are everywhere above it, or below
+  std::vector<SceneColumn> columns;
+  std::vector<SceneNiche> niches;
+  std::vector<SceneArc> arcs;
 };
 
 /// An open doorway: an empty box through the wall between two rooms.

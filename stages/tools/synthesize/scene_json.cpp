@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages/tools/synthesize/scene_json.h"
 
+#include <algorithm>
 #include <map>
 #include <numbers>
 #include <stdexcept>
 
 #include "common/artefact/atomic_file.h"
 #include "common/artefact/json_values.h"
+#include "stages/tools/synthesize/elements.h"
 #include "stages/tools/synthesize/families.h"
 #include "stages/tools/synthesize/plan.h"
+#include "stages/tools/synthesize/room_heights.h"
+#include "stages/tools/synthesize/room_json.h"
 #include "stages/tools/synthesize/scene_limits.h"
 #include "stages/tools/synthesize/scene_reader.h"
 
@@ -19,6 +23,12 @@ using nlohmann::json;
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string all;
+  for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
+  return all;
+}
 
 class SceneParser {
  public:
@@ -100,8 +110,8 @@ void SceneParser::parse_room(const json& value, const std::string& path, double 
   room.scanned = node.boolean("scanned", true);
   if (room.ceiling < room.floor + 0.1) node.problem("the ceiling is less than 0.1 m above the floor");
   if (node.has("outline") == node.has("polygon")) node.problem("needs either \"polygon\" or \"outline\"");
+  std::vector<std::size_t> side;
   if (node.has("outline")) {
-    std::vector<std::size_t> side;
     const Polygon2 outline = node.polygon("outline", &side);
     const std::vector<double> half = wall_halves(node, side);
     if (outline.size() == half.size()) {
@@ -112,7 +122,12 @@ void SceneParser::parse_room(const json& value, const std::string& path, double 
       }
     }
   } else {
-    room.polygon = node.polygon("polygon");
+    room.polygon = node.polygon("polygon", &side);
+  }
+  read_room_elements(node, room);
+  if (!room.polygon.empty()) {
+    room.arcs = arcs_of(room.polygon, side);
+    settle_heights(room);
   }
   if (!room_by_name_.emplace(room.name, static_cast<int>(scene_.rooms.size())).second) {
     node.problem("a second room named \"" + shown(room.name) + "\"",
@@ -248,6 +263,14 @@ void SceneParser::parse_random(const json& value, const std::string& path) {
   spec.doors = node.boolean("doors", true);
   spec.shafts = node.boolean("shafts", true);
   spec.unscanned = node.number("unscanned", 0, 0, 0.9);
+  for (const json& element : node.list("elements")) {
+    const auto& known = element_names();
+    if (!element.is_string() || std::find(known.begin(), known.end(), element) == known.end()) {
+      node.problem("\"elements\" must be a list of some of " + joined(known));
+      continue;
+    }
+    spec.elements.push_back(element);
+  }
   add_random_building(spec, scene_);
   for (std::size_t i = 0; i < scene_.rooms.size(); ++i)
     room_by_name_[scene_.rooms[i].name] = static_cast<int>(i);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "stages/tools/synthesize/plan.h"
+#include "stages/tools/synthesize/room_heights.h"
 
 namespace roomcut::synthesize {
 
@@ -14,6 +15,7 @@ constexpr double kReach = 6.0;                // a spot of floor is no further t
 constexpr double kRaster = 0.3;               // of candidate positions [m]
 constexpr double kWallClearance = 0.4;        // [m]
 constexpr double kFurnitureClearance = 0.25;  // [m]
+constexpr double kCeilingClearance = 0.3;     // [m]
 
 struct Spot {
   Vec2 p;
@@ -21,7 +23,23 @@ struct Spot {
   bool usable;
 };
 
-std::vector<Spot> floor_raster(const SceneRoom& room, const Building& building, double z) {
+/// Height of a scanner over p: eye height, or somewhat above the middle of a low room.
+double scanner_height(const SceneRoom& room, double station_height, const Vec2& p) {
+  const double floor = floor_at(room, p);
+  const double ceiling = ceiling_at(room, p);
+  return std::min(std::min(floor + station_height, 0.5 * (floor + ceiling) + 0.5), ceiling - 0.05);
+}
+
+/// From the walls and the columns.
+double clearance_at(const SceneRoom& room, const Vec2& p) {
+  double clearance = border_distance(room.polygon, p);
+  for (const SceneColumn& column : room.columns) {
+    clearance = contains(column.polygon, p) ? 0 : std::min(clearance, border_distance(column.polygon, p));
+  }
+  return clearance;
+}
+
+std::vector<Spot> floor_raster(const SceneRoom& room, const Building& building, double station_height) {
   Vec2 lo = room.polygon[0];
   Vec2 hi = lo;
   for (const Vec2& p : room.polygon) {
@@ -33,7 +51,9 @@ std::vector<Spot> floor_raster(const SceneRoom& room, const Building& building, 
     for (double x = lo.x() + kRaster / 2; x < hi.x(); x += kRaster) {
       const Vec2 p(x, y);
       if (!contains(room.polygon, p)) continue;
-      const double clearance = border_distance(room.polygon, p);
+      const double z = scanner_height(room, station_height, p);
+      if (!room.level_ceiling && z > ceiling_at(room, p) - kCeilingClearance) continue;
+      const double clearance = clearance_at(room, p);
       const bool free =
           std::none_of(building.furniture.begin(), building.furniture.end(), [&](const auto& box) {
             return box.z1 > room.floor && box.z0 < z + 0.3 && in_plan(box, p, kFurnitureClearance);
@@ -88,10 +108,9 @@ void place_stations(const Scene& scene, Building& building) {
   for (std::size_t r = 0; r < scene.rooms.size(); ++r) {
     const SceneRoom& room = scene.rooms[r];
     if (!room.scanned) continue;
-    const double z =
-        std::min(room.floor + scene.sampling.station_height, 0.5 * (room.floor + room.ceiling) + 0.5);
-    for (const Vec2& p : choose(room, floor_raster(room, building, z))) {
-      building.stations.emplace_back(p.x(), p.y(), std::min(z, room.ceiling - 0.05));
+    const double height = scene.sampling.station_height;
+    for (const Vec2& p : choose(room, floor_raster(room, building, height))) {
+      building.stations.emplace_back(p.x(), p.y(), scanner_height(room, height, p));
       building.station_room.push_back(static_cast<int>(r));
     }
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "stages/tools/synthesize/plan.h"
+#include "stages/tools/synthesize/room_heights.h"
 
 namespace roomcut::synthesize {
 
@@ -88,7 +89,9 @@ void Surfaces::add_parallelogram(const Vec3& corner, const Vec3& u, const Vec3& 
 
 bool Surfaces::in_room(const Scene& scene, const Vec3& p) const {
   return std::any_of(scene.rooms.begin(), scene.rooms.end(), [&](const SceneRoom& room) {
-    return p.z() > room.floor && p.z() < room.ceiling && contains(room.polygon, p.head<2>());
+    const Vec2 place = p.head<2>();
+    return p.z() > room.floor && p.z() < room.ceiling && contains(room.polygon, place) &&
+           p.z() > floor_at(room, place) && p.z() < ceiling_at(room, place);
   });
 }
 

@@ -2,9 +2,10 @@
 #include "stages/tools/synthesize/truth.h"
 
 #include <algorithm>
-#include <map>
+#include <array>
 #include <sstream>
 #include <unordered_map>
+#include <utility>
 
 #include "common/errors/codes.h"
 #include "stages/tools/synthesize/plan_union.h"
@@ -14,13 +15,12 @@ namespace roomcut::synthesize {
 
 namespace {
 
-/// Turns the plan and its layers into the border surface. A corner (vertex v, height l) exists where a
-/// horizontal face begins or ends at l beside v; walls run unbroken past all other heights.
+/// Turns the plan and its layers into the border surface. A corner (vertex v, surface s) exists where a
+/// floor or ceiling begins or ends on s beside v; walls run unbroken past all other surfaces.
 class Extruder {
  public:
-  explicit Extruder(const PlanUnion& plan) : plan_(plan), levels_(plan.heights.size()) {
-    corner_.assign(plan.vertices.size() * levels_, kNone);
-  }
+  explicit Extruder(const PlanUnion& plan)
+      : plan_(plan), levels_(plan.heights.size()), corners_(plan.vertices.size()) {}
 
   TriangleMesh extrude() {
     add_corners();
@@ -30,89 +30,123 @@ class Extruder {
   }
 
  private:
-  static constexpr std::int32_t kNone = -1;
-  using Layer = std::ptrdiff_t;
+  /// Where a surface has a corner over a vertex of the plan.
+  struct Corner {
+    std::int32_t surface;
+    double z;
+    std::int32_t number;  ///< of the mesh's vertex
+  };
 
-  std::int32_t& corner(std::int32_t vertex, std::size_t level) { return corner_[vertex * levels_ + level]; }
-  bool changes(std::int32_t region, std::size_t level) const {
-    const Layer layer = static_cast<Layer>(level);
-    return plan_.is_empty(region, layer - 1) != plan_.is_empty(region, layer);
+  std::int32_t corner(std::int32_t vertex, std::int32_t surface) const {
+    const std::vector<Corner>& there = corners_[static_cast<std::size_t>(vertex)];
+    return std::find_if(there.begin(), there.end(), [&](const Corner& c) { return c.surface == surface; })
+        ->number;
   }
+  double z(std::int32_t corner) const { return mesh_.vertices[static_cast<std::size_t>(corner)].z(); }
 
   void add_corners() {
     for (std::size_t t = 0; t < plan_.triangles.size(); ++t) {
+      const std::int32_t region = plan_.triangle_region[t];
       for (std::size_t l = 0; l < levels_; ++l) {
-        if (!changes(plan_.triangle_region[t], l)) continue;
-        for (const std::int32_t v : plan_.triangles[t]) corner(v, l) = 0;
+        if (!plan_.changes(region, l)) continue;
+        for (const std::int32_t v : plan_.triangles[t]) add_corner(v, plan_.surface[region][l]);
       }
     }
-    for (std::size_t v = 0; v < plan_.vertices.size(); ++v) {
-      for (std::size_t l = 0; l < levels_; ++l) {
-        std::int32_t& c = corner(static_cast<std::int32_t>(v), l);
-        if (c == kNone) continue;
-        c = static_cast<std::int32_t>(mesh_.vertices.size());
-        mesh_.vertices.emplace_back(plan_.vertices[v].x(), plan_.vertices[v].y(), plan_.heights[l]);
+    for (std::size_t v = 0; v < corners_.size(); ++v) number_corners(plan_.vertices[v], corners_[v]);
+  }
+
+  void add_corner(std::int32_t vertex, std::int32_t surface) {
+    std::vector<Corner>& there = corners_[static_cast<std::size_t>(vertex)];
+    const bool known =
+        std::any_of(there.begin(), there.end(), [&](const Corner& c) { return c.surface == surface; });
+    if (!known)
+      there.push_back({surface, plan_.height(surface, plan_.vertices[static_cast<std::size_t>(vertex)]), 0});
+  }
+
+  /// From below; surfaces that meet there have one corner, at a level one's height.
+  void number_corners(const Vec2& p, std::vector<Corner>& there) {
+    std::sort(there.begin(), there.end(), [](const Corner& a, const Corner& b) {
+      return std::pair(a.z, a.surface) < std::pair(b.z, b.surface);
+    });
+    for (std::size_t i = 0; i < there.size(); ++i) {
+      const bool level = static_cast<std::size_t>(there[i].surface) < levels_;
+      if (i == 0 || there[i].z - there[i - 1].z > PlanUnion::kSame) {
+        mesh_.vertices.emplace_back(p.x(), p.y(), there[i].z);
+      } else if (level) {
+        mesh_.vertices.back().z() = there[i].z;
       }
+      there[i].number = static_cast<std::int32_t>(mesh_.vertices.size()) - 1;
     }
   }
 
   void add_horizontal(std::size_t t) {
     const Triangle& plan = plan_.triangles[t];
+    const std::int32_t region = plan_.triangle_region[t];
     for (std::size_t l = 0; l < levels_; ++l) {
-      if (!changes(plan_.triangle_region[t], l)) continue;
-      Triangle face{corner(plan[0], l), corner(plan[1], l), corner(plan[2], l)};  // a ceiling: normal up
-      if (plan_.is_empty(plan_.triangle_region[t], static_cast<Layer>(l))) std::swap(face[1], face[2]);
+      if (!plan_.changes(region, l)) continue;
+      const std::int32_t s = plan_.surface[region][l];
+      Triangle face{corner(plan[0], s), corner(plan[1], s), corner(plan[2], s)};  // a ceiling: normal up
+      if (plan_.is_empty(region, static_cast<std::ptrdiff_t>(l))) std::swap(face[1], face[2]);
       mesh_.triangles.push_back(face);
     }
   }
 
+  /// Where a region's emptiness begins or ends over an edge, from below.
+  struct Border {
+    double middle;          ///< height over the middle of the edge
+    std::int32_t from, to;  ///< corners at its ends
+    bool left;              ///< of the region to the left
+  };
+
+  std::vector<Border> borders(const PlanUnion::Edge& edge) {
+    std::vector<Border> all;
+    for (const std::int32_t region : {edge.left, edge.right}) {
+      for (std::size_t l = 0; l < levels_; ++l) {
+        if (!plan_.changes(region, l)) continue;
+        const std::int32_t from = corner(edge.v0, plan_.surface[region][l]);
+        const std::int32_t to = corner(edge.v1, plan_.surface[region][l]);
+        all.push_back({0.5 * (z(from) + z(to)), from, to, region == edge.left});
+      }
+    }
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Border& a, const Border& b) { return a.middle < b.middle; });
+    return all;
+  }
+
+  /// Walls stand where just one of the two regions is empty.
   void add_walls(const PlanUnion::Edge& edge) {
-    const Layer layers = static_cast<Layer>(levels_) - 1;
-    for (Layer k = 0; k < layers;) {
-      const bool left = plan_.is_empty(edge.left, k);
-      const bool right = plan_.is_empty(edge.right, k);
-      Layer end = k + 1;
-      while (end < layers && plan_.is_empty(edge.left, end) == left &&
-             plan_.is_empty(edge.right, end) == right)
-        ++end;
-      if (left && !right) add_strip(edge.v0, edge.v1, k, end);
-      if (right && !left) add_strip(edge.v1, edge.v0, k, end);
-      k = end;
+    bool left = false;
+    bool right = false;
+    const Border* last = nullptr;
+    const std::vector<Border> all = borders(edge);
+    for (const Border& border : all) {
+      if (last != nullptr && left && !right) add_strip({last->from, border.from}, {last->to, border.to});
+      if (last != nullptr && right && !left) add_strip({last->to, border.to}, {last->from, border.from});
+      (border.left ? left : right) = !(border.left ? left : right);
+      last = &border;
     }
   }
 
-  /// The wall over v0 -> v1 between two levels, its normal to the right: two chains of corners, zipped.
-  void add_strip(std::int32_t v0, std::int32_t v1, Layer from, Layer to) {
-    const std::vector<std::int32_t> left = chain(v0, from, to);
-    const std::vector<std::int32_t> right = chain(v1, from, to);
-    std::size_t i = 0;
-    std::size_t j = 0;
-    while (i + 1 < left.size() || j + 1 < right.size()) {
-      const bool left_next =
-          j + 1 == right.size() ||
-          (i + 1 < left.size() && mesh_.vertices[left[i + 1]].z() < mesh_.vertices[right[j + 1]].z());
+  /// A wall between two chains of corners, each from below; its normal is to the right of left -> right.
+  /// Zipped.
+  void add_strip(const std::array<std::int32_t, 2>& left, const std::array<std::int32_t, 2>& right) {
+    std::int32_t i = left[0];
+    std::int32_t j = right[0];
+    while (i < left[1] || j < right[1]) {
+      const bool left_next = j == right[1] || (i < left[1] && z(i + 1) < z(j + 1));
       if (left_next) {
-        mesh_.triangles.push_back({left[i], right[j], left[i + 1]});
+        mesh_.triangles.push_back({i, j, i + 1});
         ++i;
       } else {
-        mesh_.triangles.push_back({left[i], right[j], right[j + 1]});
+        mesh_.triangles.push_back({i, j, j + 1});
         ++j;
       }
     }
   }
 
-  std::vector<std::int32_t> chain(std::int32_t v, Layer from, Layer to) {
-    std::vector<std::int32_t> corners;
-    for (Layer l = from; l <= to; ++l) {
-      if (corner(v, static_cast<std::size_t>(l)) != kNone)
-        corners.push_back(corner(v, static_cast<std::size_t>(l)));
-    }
-    return corners;
-  }
-
   const PlanUnion& plan_;
   std::size_t levels_;
-  std::vector<std::int32_t> corner_;
+  std::vector<std::vector<Corner>> corners_;  // per vertex of the plan
   TriangleMesh mesh_;
 };
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "stages/tools/synthesize/room_heights.h"
+
 namespace roomcut::synthesize {
 
 namespace {
@@ -32,14 +34,20 @@ std::optional<Wall> wall_between(const Vec2& a0, const Vec2& a1, const Vec2& b0,
 void add_walls(const Scene& scene, std::size_t i, std::size_t j, std::vector<Wall>& walls) {
   const SceneRoom& a = scene.rooms[i];
   const SceneRoom& b = scene.rooms[j];
-  const double z0 = std::max(a.floor, b.floor);
-  const double z1 = std::min(a.ceiling, b.ceiling);
-  if (z1 - z0 < kLowest) return;
+  if (std::min(a.ceiling, b.ceiling) - std::max(a.floor, b.floor) < kLowest) return;
   for (std::size_t s = 0; s < a.polygon.size(); ++s) {
     for (std::size_t t = 0; t < b.polygon.size(); ++t) {
       auto wall = wall_between(a.polygon[s], a.polygon[(s + 1) % a.polygon.size()], b.polygon[t],
                                b.polygon[(t + 1) % b.polygon.size()]);
       if (!wall) continue;
+      // At its lowest place: beside both rooms all along.
+      double z0 = std::max(a.floor, b.floor);
+      double z1 = std::min(a.ceiling, b.ceiling);
+      for (const Vec2& p : {wall->a, wall->b}) {
+        z0 = std::max({z0, floor_at(a, p), floor_at(b, p)});
+        z1 = std::min({z1, ceiling_at(a, p), ceiling_at(b, p)});
+      }
+      if (z1 - z0 < kLowest) continue;
       wall->room_a = static_cast<int>(i);
       wall->room_b = static_cast<int>(j);
       wall->z0 = z0;

@@ -81,10 +81,12 @@ void make_manifold(const CellComplex& complex, std::vector<std::uint8_t>& label)
   }
 }
 
-TEST(Extract, TwoHundredRandomLabelingsAreClosedAndFreeOfIntersections) {
-  std::set<std::int64_t> eulers;
-  std::set<std::int64_t> sizes;
-  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+/// A random complex and a labelling of it whose surface is a 2-manifold.
+struct RandomCells {
+  CellComplex complex;
+  Labels labels;
+
+  explicit RandomCells(std::uint64_t seed) {
     auto draw = [seed, counter = std::uint64_t{0}]() mutable { return random_unit(seed, 0, counter++); };
     const auto coordinates = [&](int n) {
       std::vector<double> out{-3};
@@ -94,18 +96,26 @@ TEST(Extract, TwoHundredRandomLabelingsAreClosedAndFreeOfIntersections) {
     const auto x = coordinates(9), y = coordinates(8), z = coordinates(6);
     // Never 45 degrees: the sides of the bounding box are told apart by their direction.
     const double angle = seed % 2 == 0 ? 0 : 0.7 * draw();
-    const CellComplex complex = test::grid_complex(x, y, z, angle, [seed](int i, int j) {
+    complex = test::grid_complex(x, y, z, angle, [seed](int i, int j) {
       return i % 2 == 0 &&
              random_unit(seed, 1, 64 * static_cast<std::uint64_t>(i) + static_cast<std::uint64_t>(j)) < 0.3;
     });
     if (angle == 0) {  // turned grids have no axis-aligned bounding box, all else holds
-      ASSERT_EQ(find_violation(complex), "");
+      EXPECT_EQ(find_violation(complex), "");
     }
-    Labels labels =
+    labels =
         test::label_where(complex, [&](const Vec2&, double) { return draw() < 0.02 + 0.1 * (seed % 5); });
     labels.label[complex.cell(complex.faces() / 2, 2)] = 1;
     make_manifold(complex, labels.label);
-    const Model model = extract_model(complex, labels, {}, {});
+  }
+};
+
+TEST(Extract, TwoHundredRandomLabelingsAreClosedAndFreeOfIntersections) {
+  std::set<std::int64_t> eulers;
+  std::set<std::int64_t> sizes;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const RandomCells cells(seed);
+    const Model model = extract_model(cells.complex, cells.labels, {}, {});
     ASSERT_EQ(model.fault, "") << "seed " << seed;
     ASSERT_TRUE(model.check.valid()) << "seed " << seed << ": " << describe_faults(model.check);
     eulers.insert(model.check.euler);
@@ -113,6 +123,62 @@ TEST(Extract, TwoHundredRandomLabelingsAreClosedAndFreeOfIntersections) {
   }
   EXPECT_GT(eulers.size(), 8U) << "the labelings are of many kinds";
   EXPECT_GT(sizes.size(), 60U);
+}
+
+/// How floors and ceilings differ from their levels.
+struct Wildness {
+  double offset_m, tilt;
+  int planes;      ///< per level and side
+  double go_back;  ///< share of them that may have to lie at their levels
+};
+
+/// Random planes for the floors and ceilings: faces of one level and side share `planes` of them at random.
+LevelSurfaces random_surfaces(const RandomCells& cells, std::uint64_t seed, const Wildness& wild) {
+  const CellComplex& complex = cells.complex;
+  auto draw = [seed, counter = std::uint64_t{0}]() mutable {
+    return 2 * random_unit(seed, 2, counter++) - 1;
+  };
+  LevelSurfaces out;
+  out.of_face.assign(complex.levels.size() * complex.faces(), -1);
+  for (std::size_t i = 0; i < out.of_face.size(); ++i) {
+    const std::size_t level = complex.level_of(i);
+    const bool below = level > 0 && is_empty(cells.labels.label, i - complex.faces());
+    const bool above = level < complex.layers() && is_empty(cells.labels.label, i);
+    if (above == below || draw() > 0.8) continue;
+    const auto kind = 2 * static_cast<int>(level) + (above ? 1 : 0);
+    const auto of_kind = static_cast<int>(wild.planes * random_unit(seed, 3, i));
+    out.of_face[i] = kind * wild.planes + of_kind;
+  }
+  for (std::size_t kind = 0; kind < 2 * complex.levels.size(); ++kind) {
+    for (int i = 0; i < wild.planes; ++i) {
+      LevelSurface surface;
+      if (draw() > -0.5) surface.gradient = wild.tilt * Vec2(draw(), draw());
+      surface.c = complex.levels[kind / 2] + wild.offset_m * draw();
+      out.surfaces.push_back(surface);
+    }
+  }
+  return out;
+}
+
+TEST(Extract, RandomSurfacesLeaveRandomLabelingsClosedAndFreeOfIntersections) {
+  // As fits give them; as one level's faces at random from several; slopes; and nonsense.
+  for (const Wildness& wild :
+       {Wildness{0.03, 0.01, 1, 0.02}, Wildness{0.03, 0.01, 3, 0.2}, Wildness{1e-4, 1e-4, 3, 0.4},
+        Wildness{0.1, 0.3, 1, 0.15}, Wildness{0.3, 2, 2, 1}}) {
+    double area = 0, put_back = 0;
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+      SCOPED_TRACE("seed " + std::to_string(seed) + ", tilt " + std::to_string(wild.tilt));
+      const RandomCells cells(seed);
+      const LevelSurfaces surfaces = random_surfaces(cells, seed, wild);
+      const Model model = extract_model(cells.complex, cells.labels, {}, {}, surfaces);
+      ASSERT_EQ(model.fault, "");
+      ASSERT_TRUE(model.check.valid()) << describe_faults(model.check);
+      EXPECT_NEAR(model.check.volume_m3, model.empty_m3, 1e-4 * model.empty_m3);
+      area += model.areas.floor + model.areas.ceiling;
+      put_back += model.put_back_m2;
+    }
+    EXPECT_LE(put_back, wild.go_back * area) << wild.offset_m << " " << wild.tilt << " " << wild.planes;
+  }
 }
 
 }  // namespace

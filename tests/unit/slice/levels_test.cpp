@@ -24,7 +24,7 @@ std::vector<Level> levels_of(const SyntheticCloud& cloud, std::vector<Level>* re
   std::vector<SurfaceCell> cells = surface_cells(survey.patches, rules.noise_m);
   measure_drift(cells, rules.raster_m, rules.noise_m);
   std::vector<Level> levels = find_levels(survey, cells, rules, rejected);
-  add_caps(levels, survey, cells, 0.2);
+  add_caps(levels, survey, cells, {}, 0.2);
   return levels;
 }
 

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <limits>
 
+#include "common/artefact/h5.h"
 #include "common/errors/error.h"
 
 namespace roomcut {
@@ -53,7 +55,36 @@ Slices example() {
                    {2.4, 2.38, 2.42, 8, 8, false, true},
                    {2.6, 2.6, 2.6, 0, 0, true, false}};
   slices.wall_slices = {grid(5), grid(0)};
+  slices.planes = {{{0.3, -0.1}, 2.5, {{0, 0}, {3, 0}, {3, 2}, {0, 2}}, 6.2, 0.004, true},
+                   {{0, 0.06}, -1, {{1, 1}, {2, 1}, {1, 3}}, 2.1, 0.005, false}};
   return slices;
+}
+
+/// Writes slices.h5 as version 1.1 had it.
+void write_without_planes(const std::filesystem::path& path) {
+  const Slices all = example();
+  write_slices(path, all, {});
+  H5Reader from(path, artefacts::kSlices);
+  H5Writer to(path.string() + ".old", {"slices", 1, 1}, {}, all.frame);
+  const auto copy = [&]<class T>(T, const char* name) {
+    to.write(name, from.read<T>(name), "1", "as it was");
+  };
+  for (const char* name :
+       {"bbox_min", "bbox_max", "noise", "density", "tau", "histogram/z0", "histogram/bin", "histogram/area",
+        "levels/z", "levels/lo", "levels/hi", "levels/area", "levels/component"}) {
+    copy(double{}, name);
+  }
+  for (const char* name : {"levels/cap", "levels/step", "wall_slices/azimuth", "wall_slices/azimuth_trust"}) {
+    copy(std::uint8_t{}, name);
+  }
+  for (const char* name :
+       {"wall_slices/x", "wall_slices/y", "wall_slices/coverage", "wall_slices/weight", "wall_slices/area"}) {
+    copy(float{}, name);
+  }
+  for (const char* name : {"wall_slices/ix", "wall_slices/iy"}) copy(std::int32_t{}, name);
+  copy(std::uint64_t{}, "wall_slices/offset");
+  to.commit();
+  std::filesystem::rename(path.string() + ".old", path);
 }
 
 TEST_F(SlicesIo, WhatIsWrittenIsRead) {
@@ -85,6 +116,27 @@ TEST_F(SlicesIo, WhatIsWrittenIsRead) {
   EXPECT_EQ(in.wall_slices[0].azimuth, out.wall_slices[0].azimuth);
   EXPECT_EQ(in.wall_slices[0].azimuth_trust, out.wall_slices[0].azimuth_trust);
   EXPECT_EQ(in.wall_slices[1].size(), 0U);
+  ASSERT_EQ(in.planes.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(in.planes[i].gradient, out.planes[i].gradient);
+    EXPECT_EQ(in.planes[i].c, out.planes[i].c);
+    EXPECT_EQ(in.planes[i].outline, out.planes[i].outline);
+    EXPECT_EQ(in.planes[i].area_m2, out.planes[i].area_m2);
+    EXPECT_EQ(in.planes[i].rms_m, out.planes[i].rms_m);
+    EXPECT_EQ(in.planes[i].ceiling, out.planes[i].ceiling);
+  }
+}
+
+TEST_F(SlicesIo, FilesBeforeVersion12HaveNoPlanes) {
+  Slices out = example();
+  out.planes.clear();
+  write_slices(path(), out, {});
+  EXPECT_TRUE(read_slices(path()).planes.empty());
+  // A file of version 1.1 is one of 1.2 without the group.
+  write_without_planes(path());
+  const Slices in = read_slices(path());
+  EXPECT_TRUE(in.planes.empty());
+  EXPECT_EQ(in.levels.size(), 3U);
 }
 
 TEST_F(SlicesIo, WithoutGridsOnlyTheLevelsAreRead) {
@@ -174,6 +226,26 @@ TEST_F(SlicesIo, AMissingFileIsNamed) {
   } catch (const StageError& error) {
     EXPECT_STREQ(error.problems().front().code.id, "A01");
   }
+}
+
+TEST_F(SlicesIo, PlanesThatNoBuildingHasAreDamage) {
+  const auto expect_damage = [&](const std::string& dataset, auto spoil) {
+    const std::string text = complaint(path(), spoil);
+    EXPECT_NE(text.find("A02"), std::string::npos) << dataset << text;
+    EXPECT_NE(text.find(dataset), std::string::npos) << text;
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  expect_damage("planes/gradient", [nan](Slices& s) { s.planes[0].gradient.y() = nan; });
+  expect_damage("planes/gradient", [](Slices& s) { s.planes[0].gradient.x() = 1e9; });
+  expect_damage("planes/c", [](Slices& s) { s.planes[1].c = 1e12; });
+  expect_damage("planes/area", [](Slices& s) { s.planes[1].area_m2 = -1; });
+  expect_damage("planes/rms", [nan](Slices& s) { s.planes[0].rms_m = nan; });
+  expect_damage("planes/outline_x", [](Slices& s) { s.planes[0].outline[1].x() = 1e9; });
+  expect_damage("planes/outline_offset", [](Slices& s) { s.planes[1].outline.pop_back(); });
+  expect_damage("planes/outline_x",
+                [](Slices& s) { std::swap(s.planes[0].outline[0], s.planes[0].outline[1]); });
+  expect_damage("planes/outline_x",
+                [](Slices& s) { std::reverse(s.planes[1].outline.begin(), s.planes[1].outline.end()); });
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/mesh/mesh_check.h"
+#include "stages/tools/synthesize/elements.h"
 #include "stages/tools/synthesize/truth.h"
 #include "stages/tools/synthesize/walls.h"
 
@@ -71,6 +72,25 @@ TEST_P(Families, RoomsThatNoScannerEntersHaveADoorToOneThatIsEntered) {
     EXPECT_TRUE(std::any_of(scene.doors.begin(), scene.doors.end(), looks_in)) << scene.rooms[room].name;
   }
   EXPECT_EQ(closed, static_cast<std::size_t>(std::lround(0.25 * static_cast<double>(scene.rooms.size()))));
+}
+
+TEST_P(Families, WithAllElementsAreStillValidBuildings) {
+  for (std::uint64_t seed = 11; seed <= 14; ++seed) {
+    SCOPED_TRACE(seed);
+    Scene scene;
+    FamilySpec spec;
+    spec.family = GetParam();
+    spec.seed = seed;
+    spec.elements = element_names();
+    add_random_building(spec, scene);
+    TriangleMesh mesh;
+    ASSERT_NO_THROW(mesh = make_truth(scene, place(scene)));
+    const MeshCheck check = check_mesh(mesh);
+    EXPECT_TRUE(check.valid()) << describe_faults(check);
+    std::size_t slopes = 0;
+    for (const SceneRoom& room : scene.rooms) slopes += room.slopes.size();
+    EXPECT_GT(slopes, 0U);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Families, testing::ValuesIn(family_names()),
