@@ -16,7 +16,7 @@ namespace {
 constexpr double kFinest_m = 0.0005;    // no floor is more even than this
 constexpr double kFewestPatches = 6;    // to prove a tilt
 constexpr double kLeastFall_m = 0.002;  // over the samples
-constexpr double kSteepest = 0.05;      // steeper floors are sloped planes, which slice finds
+constexpr double kSteepest = 0.1;       // steeper floors are sloped planes, which slice finds
 constexpr double kChance = 13.8;        // chi square of two degrees of freedom: one in a thousand
 constexpr double kOutside_m = 1;        // a tilt may go on this far, and as far again as it was seen
 
