@@ -91,13 +91,15 @@ struct FittedRegion {
   Vec2 middle{0, 0};
   double area = 0;
   std::int64_t points = 0;
+  Fits fits;  ///< of a level one with samples
   std::optional<PlaneFit> fit;
 };
 
 /// The plane itself where its points don't tell better.
 LevelSurface fit_sloped(const SlopedPlane& plane, const FittedRegion& of, const Roughness& roughness) {
   if (patches(of.samples) >= kPlanePatches) {
-    const PlaneFit fit = fit_tilted(of.samples, of.middle, roughness, plane.gradient);
+    PlaneFit fit = fit_tilted(of.samples, of.middle, plane.gradient);
+    measure_covariance(of.samples, roughness, fit);
     if (std::abs(fit.z - plane.height(of.middle)) < kPlaneShift_m &&
         (fit.gradient - plane.gradient).norm() < kPlaneTurn * (1 + plane.gradient.squaredNorm())) {
       return as_surface(fit, of.area, of.points, of.region.plane);
@@ -118,7 +120,7 @@ std::optional<PlaneFit> fit_region(const CellComplex& complex, const FittedRegio
     return {};
   }
   const PlaneFit fit =
-      fit_surface(of.samples, of.middle, corners_of(complex, of.region), roughness, may_tilt);
+      choose_surface(of.samples, of.fits, corners_of(complex, of.region), roughness, may_tilt);
   if (std::abs(fit.z - level_of(complex, of)) > kFar_m && seen < kSeenShareFar * of.area) {
     return {};
   }
@@ -129,8 +131,7 @@ Roughness roughness_of(const std::vector<FittedRegion>& regions, double patch_m)
   std::vector<RoughRegion> rough;
   for (const FittedRegion& of : regions) {
     if (of.region.plane < 0 && !of.samples.empty()) {
-      rough.push_back({of.samples, fit_level(of.samples, of.middle, {}),
-                       fit_tilted(of.samples, of.middle, {}, Vec2(0, 0))});
+      rough.push_back({of.samples, &of.fits});
     }
   }
   return measure_roughness(rough, patch_m);
@@ -222,9 +223,13 @@ FittedSurfaces SurfaceFitter::fit() const {
     }
     result.split += parts.size() - 1;
     for (Region& part : parts) {
-      FittedRegion of{std::move(part), {}, {0, 0}, 0, 0, {}};
+      FittedRegion of;
+      of.region = std::move(part);
       of.samples = samples.of_all(of.region.faces);
       of.middle = middle_of(complex_, of.region);
+      if (of.region.plane < 0 && !of.samples.empty()) {
+        of.fits = fit_both(of.samples, of.middle);
+      }
       of.area = area_of(complex_, of.region);
       for (const std::size_t face : of.region.faces) {
         of.points += points[face];

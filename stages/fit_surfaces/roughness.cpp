@@ -34,6 +34,28 @@ struct Cell {
   double share = 0, residual = 0, variance = 0;  // sums, weighted by share
 };
 
+/// From a cell to another one, each pair once.
+struct Step {
+  long dx, dy;
+  std::size_t lag;
+};
+
+const std::vector<Step>& steps() {
+  static const std::vector<Step> all = [] {
+    std::vector<Step> result;
+    for (long dy = 0; dy <= kLags; ++dy) {
+      for (long dx = dy == 0 ? 1 : -kLags; dx <= kLags; ++dx) {
+        const auto lag = static_cast<std::size_t>(std::lround(std::hypot(dx, dy)));
+        if (lag <= kLags) {
+          result.push_back({dx, dy, lag});
+        }
+      }
+    }
+    return result;
+  }();
+  return all;
+}
+
 /// Residuals about `fit` of the region's patches, those of one grid cell as one.
 Covariances covariances_of(const RoughRegion& region, const PlaneFit& fit, double patch_m) {
   std::map<std::pair<long, long>, Cell> cells;
@@ -57,14 +79,11 @@ Covariances covariances_of(const RoughRegion& region, const PlaneFit& fit, doubl
     sums.product[0] += r * r - cell.variance / (cell.share * cell.share);
     sums.count[0] += 1;
     sums.square += r * r;
-    for (long dy = 0; dy <= kLags; ++dy) {
-      for (long dx = dy == 0 ? 1 : -kLags; dx <= kLags; ++dx) {
-        const auto lag = static_cast<std::size_t>(std::lround(std::hypot(dx, dy)));
-        const auto other = lag > kLags ? cells.end() : cells.find({place.first + dy, place.second + dx});
-        if (other != cells.end()) {
-          sums.product[lag] += r * other->second.residual / other->second.share;
-          sums.count[lag] += 1;
-        }
+    for (const Step& step : steps()) {
+      const auto other = cells.find({place.first + step.dy, place.second + step.dx});
+      if (other != cells.end()) {
+        sums.product[step.lag] += r * other->second.residual / other->second.share;
+        sums.count[step.lag] += 1;
       }
     }
   }
@@ -93,8 +112,8 @@ Roughness measure_roughness(const std::vector<RoughRegion>& regions, double patc
   std::vector<Covariances> level;
   std::vector<Covariances> tilted;
   for (const RoughRegion& region : regions) {
-    level.push_back(covariances_of(region, region.level, patch_m));
-    tilted.push_back(covariances_of(region, region.tilted, patch_m));
+    level.push_back(covariances_of(region, region.fits->level, patch_m));
+    tilted.push_back(covariances_of(region, region.fits->tilted, patch_m));
   }
   Roughness result;
   double hidden = 0;

@@ -4,14 +4,14 @@
 #include <span>
 #include <vector>
 
-#include "stages/fit_surfaces/plane_fit.h"
+#include "stages/fit_surfaces/model_choice.h"
 
 namespace roomcut::fit_surfaces {
 
 /// A floor or ceiling whose patches say how rough floors are here.
 struct RoughRegion {
-  std::vector<Sample> samples;
-  PlaneFit level, tilted;  ///< fits to them
+  std::span<const Sample> samples;
+  const Fits* fits = nullptr;  ///< to them
 };
 
 /// How patches err together beyond their own variances, measured over all regions of a building: a warped

@@ -15,7 +15,7 @@ const Vec2 kMiddle(3, 2.5);
 const std::vector<Vec2> kOutline = {{0, 0}, {6, 0}, {6, 5}, {0, 5}};
 
 PlaneFit fit_room(const std::vector<Sample>& samples, const Roughness& roughness = {}) {
-  return fit_surface(samples, kMiddle, kOutline, roughness, true);
+  return choose_surface(samples, fit_both(samples, kMiddle), kOutline, roughness, true);
 }
 
 TEST(ModelChoice, LevelFloorsAreNeverTiltedByNoise) {
@@ -49,15 +49,16 @@ TEST(ModelChoice, WhatWasSeenInACornerIsNotContinuedOverTheHall) {
   const auto samples = made_samples(random, 12, 10, 0.0005, [](const Vec2& p) { return 0.004 * p.x(); });
   EXPECT_GT(fit_room(samples).gradient.norm(), 0.0035);
   const std::vector<Vec2> hall = {{0, 0}, {40, 0}, {40, 20}, {0, 20}};
-  EXPECT_EQ(fit_surface(samples, {20, 10}, hall, {}, true).gradient, Vec2(0, 0));
+  EXPECT_EQ(choose_surface(samples, fit_both(samples, {20, 10}), hall, {}, true).gradient, Vec2(0, 0));
 }
 
 TEST(ModelChoice, TiltsThatAWarpedScanHasEverywhereAreNoTilts) {
   Normal random(4);
   const auto samples =
       made_samples(random, 8, 8, 0.001, [](const Vec2& p) { return 0.01 * std::sin(p.x() / 3); });
-  EXPECT_GT(fit_surface(samples, {2, 2}, {{{0, 0}, {4, 4}}}, {}, true).gradient.norm(), 0);
-  const PlaneFit warped = fit_surface(samples, {2, 2}, {{{0, 0}, {4, 4}}}, {0.01 * 0.01, 25}, true);
+  const std::vector<Vec2> room = {{0, 0}, {4, 4}};
+  EXPECT_GT(choose_surface(samples, fit_both(samples, {2, 2}), room, {}, true).gradient.norm(), 0);
+  const PlaneFit warped = choose_surface(samples, fit_both(samples, {2, 2}), room, {0.01 * 0.01, 25}, true);
   EXPECT_EQ(warped.gradient, Vec2(0, 0));
   EXPECT_GT(std::sqrt(warped.covariance(0, 0)), 0.004);
 }
@@ -75,7 +76,8 @@ TEST(ModelChoice, TheStatedSigmaCoversTheErrorWhereNeighboursErrAlike) {
     const auto samples = made_samples(random, 20, 20, 0.0005, [&](const Vec2& p) {
       return block[static_cast<int>(p.y()) * 10 + static_cast<int>(p.x())];
     });
-    const PlaneFit fit = fit_level(samples, {5, 5}, {});
+    PlaneFit fit = fit_level(samples, {5, 5});
+    measure_covariance(samples, {}, fit);
     inside += std::abs(fit.z) < 1.96 * std::sqrt(fit.covariance(0, 0)) ? 1 : 0;
   }
   EXPECT_GE(inside, 0.93 * kFloors);

@@ -11,12 +11,18 @@ namespace {
 using roomcut::testing::made_samples;
 using roomcut::testing::Normal;
 
-RoughRegion region_of(std::vector<Sample> samples) {
-  RoughRegion region;
-  region.level = fit_level(samples, {2, 2}, {});
-  region.tilted = fit_tilted(samples, {2, 2}, {}, Vec2(0, 0));
-  region.samples = std::move(samples);
-  return region;
+struct Region {
+  explicit Region(std::vector<Sample> of) : samples(std::move(of)), fits(fit_both(samples, {2, 2})) {}
+  std::vector<Sample> samples;
+  Fits fits;
+};
+
+Roughness roughness_of(const std::vector<Region>& regions) {
+  std::vector<RoughRegion> rough;
+  for (const Region& region : regions) {
+    rough.push_back({region.samples, &region.fits});
+  }
+  return measure_roughness(rough, 0.5);
 }
 
 /// A smooth random surface of standard deviation 1 whose covariance falls as a Gaussian of 1 m.
@@ -39,25 +45,24 @@ std::function<double(const Vec2&)> warp(Normal& random) {
 }
 
 TEST(Roughness, PatchesThatErrAloneErrAlone) {
-  std::vector<RoughRegion> regions;
+  std::vector<Region> regions;
   Normal random(1);
   for (int i = 0; i < 10; ++i) {
-    regions.push_back(region_of(made_samples(random, 8, 8, 0.002, [](const Vec2&) { return 0.0; })));
+    regions.emplace_back(made_samples(random, 8, 8, 0.002, [](const Vec2&) { return 0.0; }));
   }
-  const Roughness roughness = measure_roughness(regions, 0.5);
+  const Roughness roughness = roughness_of(regions);
   EXPECT_LT(std::sqrt(roughness.variance_m2), 0.0006);
   EXPECT_LT(roughness.patches, 1.5);
 }
 
 TEST(Roughness, AWarpOfTwoCentimetresIsMeasuredInRoomsHardlyLargerThanIt) {
-  std::vector<RoughRegion> regions;
+  std::vector<Region> regions;
   Normal random(2);
   for (int i = 0; i < 30; ++i) {
     const auto shape = warp(random);
-    regions.push_back(
-        region_of(made_samples(random, 9, 8, 0.001, [&](const Vec2& p) { return 0.02 * shape(p); })));
+    regions.emplace_back(made_samples(random, 9, 8, 0.001, [&](const Vec2& p) { return 0.02 * shape(p); }));
   }
-  const Roughness roughness = measure_roughness(regions, 0.5);
+  const Roughness roughness = roughness_of(regions);
   EXPECT_GT(std::sqrt(roughness.variance_m2), 0.012);
   EXPECT_LT(std::sqrt(roughness.variance_m2), 0.028);
   EXPECT_GT(roughness.patches, 10) << "2 pi m² are 25";
@@ -66,12 +71,11 @@ TEST(Roughness, AWarpOfTwoCentimetresIsMeasuredInRoomsHardlyLargerThanIt) {
 
 TEST(Roughness, AFloorThatFallsEvenlyIsNotRough) {
   Normal random(3);
-  std::vector<RoughRegion> regions;
+  std::vector<Region> regions;
   for (int i = 0; i < 3; ++i) {
-    regions.push_back(
-        region_of(made_samples(random, 30, 16, 0.001, [](const Vec2& p) { return 0.01 * p.x(); })));
+    regions.emplace_back(made_samples(random, 30, 16, 0.001, [](const Vec2& p) { return 0.01 * p.x(); }));
   }
-  EXPECT_LT(std::sqrt(measure_roughness(regions, 0.5).variance_m2), 0.002);
+  EXPECT_LT(std::sqrt(roughness_of(regions).variance_m2), 0.002);
 }
 
 }  // namespace

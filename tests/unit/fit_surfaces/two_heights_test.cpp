@@ -23,14 +23,14 @@ TEST(TwoHeights, AreFoundWithTheirSamples) {
   for (std::size_t i = 0; i < samples.size(); ++i) {
     EXPECT_EQ(two->is_high[i], samples[i].at.x() < 2);
   }
-  EXPECT_TRUE(has_two_heights(samples, {2.5, 2.5}, *two));
+  EXPECT_TRUE(has_two_heights(samples, fit_both(samples, {2.5, 2.5}), *two));
 }
 
 TEST(TwoHeights, ASlopeHasNone) {
   Normal random(2);
   const auto samples = made_samples(random, 20, 10, 0.001, [](const Vec2& p) { return 0.005 * p.x(); });
   const auto two = find_two_heights(samples);
-  EXPECT_FALSE(two && has_two_heights(samples, {5, 2.5}, *two));
+  EXPECT_FALSE(two && has_two_heights(samples, fit_both(samples, {5, 2.5}), *two));
 }
 
 TEST(TwoHeights, ALevelFloorHasNone) {
@@ -38,7 +38,7 @@ TEST(TwoHeights, ALevelFloorHasNone) {
     Normal random(seed);
     const auto samples = made_samples(random, 12, 10, 0.002, [](const Vec2&) { return 0.0; });
     const auto two = find_two_heights(samples);
-    EXPECT_FALSE(two && has_two_heights(samples, {3, 2.5}, *two)) << seed;
+    EXPECT_FALSE(two && has_two_heights(samples, fit_both(samples, {3, 2.5}), *two)) << seed;
   }
 }
 
