@@ -170,7 +170,13 @@ def elements_of(scores):
             "slopes_m2": slopes["area_m2"], "angle_deg": slopes["angle_median_deg"], "angle_p95_deg": slopes["angle_p95_deg"],
             "slopes_close": slopes["within_1deg_2cm"], "columns": columns.get("truth", 0), "columns_found": columns.get("found", 0),
             "columns_false": columns.get("false", 0), "floor_m2": columns.get("floor_m2", 0.0), "niches": niches["truth"],
-            "niches_m2": niches["area_m2"], "niches_near_m2": niches["area_m2"] * (niches["within_2cm"] or 0.0)}
+            **heights_of((scores["rooms"] or {}).get("list", [])), "niches_m2": niches["area_m2"], "niches_near_m2": niches["area_m2"] * (niches["within_2cm"] or 0.0)}
+
+
+def heights_of(rooms):
+    """Of the floors and ceilings of all rooms: how many, how many within 1 mm, and by how much the worst is off."""
+    off = [room[end] for room in rooms for end in ("floor_off_m", "ceiling_off_m") if room[end] is not None]
+    return {"heights": len(off), "heights_1mm": sum(abs(value) <= 0.001 for value in off), "height_worst_m": max(map(abs, off), default=None)}
 
 
 def explained(scores, mesh, volume, openings):
