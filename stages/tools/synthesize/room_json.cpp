@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSameCircle = 1e-6;  // [m]
-constexpr double kSteepest = 85;      // of slopes [degrees]
+constexpr double kSteepest = 75;      // of slopes [degrees]
 
 class ElementReader {
  public:
