@@ -11,6 +11,7 @@ from pipeline_table import RUNS  # noqa: E402
 
 # Stages whose processor time counts: all that the model needs.
 STAGES = tuple(run.name for run in RUNS if run.name != "report")
+TOLERANCE_M = 1e-6
 VOLUME_TOLERANCE = 1e-6  # relative: rounding of coordinates, far below any cell
 OUTER = ("MAKEFLAGS", "MFLAGS", "MAKELEVEL", "SCAN", "WORK", "CONFIG", "JOBS", "UP", "UNIT", "STATIONS", "TRUTH", "QUIET")
 
@@ -167,11 +168,21 @@ def row_of(scores, truth, cells_m3):
 def elements_of(scores):
     """Of slopes, columns and niches; counts and areas, so that a group's shares are those of all its buildings together."""
     volume, slopes, columns, niches = scores["volume"] or {}, scores["slopes"], scores["columns"] or {}, scores["niches"]
+    thick = [column for column in columns.get("list", []) if column["size_m"] >= 0.25 - TOLERANCE_M]
+    deep = [niche for niche in niches["list"] if niche["depth_m"] >= 0.10 - TOLERANCE_M]
     return {"volume_error": share(volume.get("model_m3", 0.0) - volume["truth_m3"], volume["truth_m3"]) if volume else None,
             "slopes_m2": slopes["area_m2"], "angle_deg": slopes["angle_median_deg"], "angle_p95_deg": slopes["angle_p95_deg"],
             "slopes_close": slopes["within_1deg_2cm"], "columns": columns.get("truth", 0), "columns_found": columns.get("found", 0),
             "columns_false": columns.get("false", 0), "floor_m2": columns.get("floor_m2", 0.0), "niches": niches["truth"],
-            "niches_m2": niches["area_m2"], "niches_near_m2": niches["area_m2"] * (niches["within_2cm"] or 0.0)}
+            "columns_25cm": len(thick), "columns_25cm_found": sum(column["found"] for column in thick),
+            "niches_10cm_m2": sum(niche["area_m2"] for niche in deep), "niches_10cm_near_m2": sum(niche["area_m2"] * (niche["within_2cm"] or 0.0) for niche in deep),
+            **heights_of((scores["rooms"] or {}).get("list", [])), "niches_m2": niches["area_m2"], "niches_near_m2": niches["area_m2"] * (niches["within_2cm"] or 0.0)}
+
+
+def heights_of(rooms):
+    """Of the floors and ceilings of all rooms: how many, how many within 1 mm, and by how much the worst is off."""
+    off = [room[end] for room in rooms for end in ("floor_off_m", "ceiling_off_m") if room[end] is not None]
+    return {"heights": len(off), "heights_1mm": sum(abs(value) <= 0.001 for value in off), "height_worst_m": max(map(abs, off), default=None)}
 
 
 def explained(scores, mesh, volume, cells_m3):

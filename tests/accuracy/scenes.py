@@ -18,6 +18,8 @@ SEEDS = range(1, 6)
 POINTS = 600000
 FURNITURE_PER_M2 = 0.12
 
+# All that `synthesize` can add to a random building.
+ELEMENTS = ["heights", "arcs", "roof", "ramps", "beams", "columns", "niches"]
 # What differs between the groups of synthetic scenes; doors and furniture unless said.
 GROUPS = {
     "uniform": {"noise_m": 0.005},
@@ -32,15 +34,15 @@ GROUPS = {
     "heights": {"noise_m": 0.005, "random": {"elements": ["heights"]}},
     "columns": {"noise_m": 0.005, "random": {"elements": ["columns"]}},
     "niches": {"noise_m": 0.005, "random": {"elements": ["niches"]}},
+    "all_elements": {"noise_m": 0.005, "holes": 0.05, "outliers": 0.01, "sampling": {"kind": "tripod"}, "random": {"elements": ELEMENTS}},
 }
 # Groups of some families only, and as dense as the scanners that they stand for, whatever the building's size [points per m^2].
-FAMILIES_OF = {"handheld": ("office", "oblique", "house"), "roofs": ("house", "oblique"), "round": ("office",), "heights": ("office",), "columns": ("office",), "niches": ("office",)}
+FAMILIES_OF = {"handheld": ("office", "oblique", "house"), "roofs": ("house", "oblique"), "round": ("office",), "heights": ("office",), "columns": ("office",), "niches": ("office",), "all_elements": ("house",)}
 DENSITIES = {"handheld": 300}
 # Buildings that try the mesh, not the accuracy: small scans, half of them from tripods, at three levels of detail; only when asked for.
 RANDOM_SEEDS = range(101, 151)
 # The same with slopes, arcs, columns and all else that a building may have, by `random_elements`.
 ELEMENT_SEEDS = range(201, 251)
-ELEMENTS = ["heights", "arcs", "roof", "ramps", "beams", "columns", "niches"]
 RANDOM_MU_M = (0.05, 0.3, 1.0)
 RANDOM_POINTS = 150000
 # One room under a monopitch roof of every pitch; only when asked for, by `slopes` or by name.

@@ -42,7 +42,9 @@ def group_rows(rows):
 
 
 # Of the elements: sums over a group; means; the rest are means weighted by the slopes' area.
-ELEMENT_SUMS = ("slopes_m2", "columns", "columns_found", "columns_false", "floor_m2", "niches", "niches_m2", "niches_near_m2")
+ELEMENT_SUMS = ("slopes_m2", "columns", "columns_found", "columns_false", "floor_m2", "niches", "niches_m2", "niches_near_m2", "heights", "heights_1mm",
+                "columns_25cm", "columns_25cm_found", "niches_10cm_m2", "niches_10cm_near_m2")
+GROUPS_OF_ELEMENTS = ("heights", "round")  # have figures there, but none of those things
 OF_SLOPES = ("angle_deg", "angle_p95_deg", "slopes_close")
 
 
@@ -54,12 +56,14 @@ def group_elements(members):
     sloped = [member for member in members if member["slopes_m2"] > 0]
     for key in OF_SLOPES:
         out[key] = sum(member[key] * member["slopes_m2"] for member in sloped) / out["slopes_m2"] if sloped else None
+    out["height_worst_m"] = max((member["height_worst_m"] for member in members if member["height_worst_m"] is not None), default=None)
     out["volume_error"] = max((member["volume_error"] for member in members if member["volume_error"] is not None), key=abs, default=None)
     return out
 
 
 def has_elements(row):
-    return bool(row.get("elements")) and any(row["elements"][key] > 0 for key in ("slopes_m2", "columns", "niches"))
+    elements, group = row.get("elements"), row.get("group", row["name"])
+    return bool(elements) and (group in GROUPS_OF_ELEMENTS or any(elements[key] > 0 for key in ("slopes_m2", "columns", "niches")))
 
 
 def element_line(row, width):
@@ -68,9 +72,11 @@ def element_line(row, width):
     return " ".join([f"{row['name']:<{width}}", number(None if values["volume_error"] is None else 100 * values["volume_error"], 8, 3),
                      number(values["angle_deg"], 7, 2), number(values["angle_p95_deg"], 7, 2),
                      number(None if values["slopes_close"] is None else 100 * values["slopes_close"], 7, 1),
-                     f"{values['columns_found']:>5}/{values['columns']:<5}", f"{values['columns_false']:>5}",
+                     f"{values['columns_found']:>5}/{values['columns']:<5}", percent(values["columns_25cm_found"], values["columns_25cm"]), f"{values['columns_false']:>5}",
                      number(1000 * values["columns_false"] / values["floor_m2"] if values["floor_m2"] else None, 7, 2),
-                     f"{values['niches']:>6}", percent(values["niches_near_m2"], values["niches_m2"])])
+                     f"{values['niches']:>6}", percent(values["niches_near_m2"], values["niches_m2"]), percent(values["niches_10cm_near_m2"], values["niches_10cm_m2"]),
+                     percent(values["heights_1mm"], values["heights"]),
+                     number(None if values["height_worst_m"] is None else 1000 * values["height_worst_m"], 8, 1)])
 
 
 def element_lines(rows, groups):
@@ -79,8 +85,8 @@ def element_lines(rows, groups):
     if not some:
         return []
     width = max(len(row["name"]) for row in some)
-    head_line = " ".join([f"{'elements':<{width}}", f"{'volume %':>8}", f"{'angle°':>7}", f"{'95 %':>7}", f"{'close%':>7}", f"{'columns':<11}", f"{'false':>5}",
-                          f"{'/1000m²':>7}", f"{'niches':>6}", f"{'2 cm %':>7}"])
+    head_line = " ".join([f"{'elements':<{width}}", f"{'volume %':>8}", f"{'angle°':>7}", f"{'95 %':>7}", f"{'close%':>7}", f"{'columns':<11}", f"{'>25cm %':>7}", f"{'false':>5}",
+                          f"{'/1000m²':>7}", f"{'niches':>6}", f"{'2 cm %':>7}", f"{'>10cm %':>7}", f"{'1 mm %':>7}", f"{'worst mm':>8}"])
     return ["", head_line, *(element_line(row, width) for row in some), "", *(element_line(group, width) for group in groups if has_elements(group))]
 
 

@@ -15,12 +15,13 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kLevel = 0.3 * kDegree, kUpright = 80 * kDegree;  // from level
 constexpr double kNear = 0.02;                                     // [m]
 constexpr double kFacing = 15 * kDegree;                           // of a niche's faces
-constexpr double kOnFace = 1e-3;                    // a niche's faces lie on its box so exactly [m]
-constexpr double kRaster = 0.05;                    // of pillars [m]
-constexpr double kSolid = 0.9;                      // of the height of a pillar
-constexpr double kLowest = 0.5;                     // rooms have no pillars where they are lower [m]
-constexpr double kSmallest = 0.01, kLargest = 1.0;  // plan of a pillar [m^2]
-constexpr int kColumnLines = 12;                    // through a column, each way
+constexpr double kOnFace = 1e-3;                         // a niche's faces lie on its box so exactly [m]
+constexpr double kRaster = 0.05;                         // of pillars [m]
+constexpr double kSolid = 0.9;                           // of the height of a pillar
+constexpr double kLowest = 0.5;                          // rooms have no pillars where they are lower [m]
+constexpr double kSmallest = 0.01, kLargest = 1.0;       // plan of a pillar [m^2]
+constexpr double kHeightRaster = 0.2, kOffHeight = 0.3;  // [m]
+constexpr int kColumnLines = 12;                         // through a column, each way
 
 struct Box2 {
   Vec2 lo, hi;
@@ -44,13 +45,31 @@ bool holds(const std::vector<Vec2>& polygon, const Vec2& p) {
   return false;
 }
 
-/// The part of [lo, hi] over (x, y) that the mesh does not enclose.
-double solid_length(const Columns& mesh, const Vec2& p, const std::vector<Interval>& within) {
+std::vector<Interval> enclosed_at(const Columns& mesh, const Vec2& p) {
   std::vector<Crossing> crossings;
-  std::vector<Interval> empty;
+  std::vector<Interval> parts;
   mesh.crossings(p.x(), p.y(), crossings);
-  enclosed(crossings, -1, empty);
-  return total_length(within) - overlap(within, empty);
+  enclosed(crossings, -1, parts);
+  return parts;
+}
+
+/// What a mesh encloses over p between a room's floor and ceiling.
+std::vector<Interval> enclosed_in(const TruthRoom& room, const Columns& mesh, const Vec2& p) {
+  std::vector<Interval> here;
+  clip(enclosed_at(mesh, p), room.floor, room.ceiling, here);
+  return here;
+}
+
+/// The part of `within` over p that the mesh does not enclose.
+double solid_length(const Columns& mesh, const Vec2& p, const std::vector<Interval>& within) {
+  return total_length(within) - overlap(within, enclosed_at(mesh, p));
+}
+
+std::optional<double> median(std::vector<double>& values) {
+  if (values.empty()) return std::nullopt;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 double solid_share(const DescribedColumn& column, const Columns& model) {
@@ -106,12 +125,7 @@ class PillarRaster {
 
   static Cell kind(const TruthRoom& room, const Columns& truth, const Columns& model, const Vec2& p) {
     if (!in_polygon(room.polygon, p.x(), p.y())) return Cell::kWall;
-    std::vector<Crossing> crossings;
-    std::vector<Interval> all;
-    std::vector<Interval> here;
-    truth.crossings(p.x(), p.y(), crossings);
-    enclosed(crossings, -1, all);
-    clip(all, room.floor, room.ceiling, here);
+    const std::vector<Interval> here = enclosed_in(room, truth, p);
     const double height = total_length(here);
     if (height < kLowest) return Cell::kWall;
     return solid_length(model, p, here) > kSolid * height ? Cell::kPillar : Cell::kFree;
@@ -223,6 +237,27 @@ NicheScores score_niches(const std::vector<DescribedNiche>& niches, const Surfac
     out.niches.push_back(score);
   }
   return out;
+}
+
+RoomHeights score_heights(const TruthRoom& room, const Columns& truth, const Columns& model) {
+  std::vector<double> floors;
+  std::vector<double> ceilings;
+  if (room.polygon.empty()) return {};
+  const Box2 box = box_of(room.polygon);
+  for (double x = box.lo.x() + kHeightRaster / 2; x < box.hi.x(); x += kHeightRaster) {
+    for (double y = box.lo.y() + kHeightRaster / 2; y < box.hi.y(); y += kHeightRaster) {
+      if (!in_polygon(room.polygon, x, y)) continue;
+      const std::vector<Interval> here = enclosed_in(room, truth, {x, y});
+      if (here.empty()) continue;
+      for (const Interval& part : enclosed_at(model, {x, y})) {
+        const double floor = part.lo - here.front().lo;
+        const double ceiling = part.hi - here.back().hi;
+        if (std::abs(floor) < kOffHeight) floors.push_back(floor);
+        if (std::abs(ceiling) < kOffHeight) ceilings.push_back(ceiling);
+      }
+    }
+  }
+  return {median(floors), median(ceilings)};
 }
 
 ColumnScores score_columns(const std::vector<DescribedColumn>& columns, const std::vector<TruthRoom>& rooms,

@@ -54,6 +54,12 @@ struct NicheScores {
   double near_m2() const;
 };
 
+/// How far the model's floor and ceiling of a room are above the truth's [m]: medians over the room's plan;
+/// empty where the model has none within 30 cm.
+struct RoomHeights {
+  std::optional<double> floor_off_m, ceiling_off_m;
+};
+
 /// `truth` are the truth's samples, `truth_surface` what they were taken of. Parallel.
 SlopeScores score_slopes(const SurfaceDistances& truth, const MeasuredSurface& truth_surface,
                          const MeasuredSurface& model_surface);
@@ -65,5 +71,8 @@ NicheScores score_niches(const std::vector<DescribedNiche>& niches, const Surfac
 /// tenths of the height between the truth's floor and ceiling.
 ColumnScores score_columns(const std::vector<DescribedColumn>& columns, const std::vector<TruthRoom>& rooms,
                            const Columns& truth, const Columns& model);
+
+/// Of rooms with a polygon, along vertical lines every 20 cm.
+RoomHeights score_heights(const TruthRoom& room, const Columns& truth, const Columns& model);
 
 }  // namespace roomcut::evaluate

@@ -74,8 +74,12 @@ std::function<bool(const Vec3&)> opening_test(const LabelledCells* cells) {
 }
 
 RoomScore room_score(const TruthRoom& room, const VolumeScores& volume, std::size_t index, double share) {
-  RoomScore out{room, volume.room_m3[index], volume.room_empty_m3[index], volume.room_unknown_m3[index],
-                RoomAnswer::kDenied};
+  RoomScore out{room,
+                volume.room_m3[index],
+                volume.room_empty_m3[index],
+                volume.room_unknown_m3[index],
+                RoomAnswer::kDenied,
+                {}};
   if (out.empty_m3 > share * out.volume_m3) {
     out.answer = RoomAnswer::kFound;
   } else if (out.empty_m3 + out.unknown_m3 > share * out.volume_m3) {
@@ -107,6 +111,7 @@ void score_spaces(const TriangleMesh& model, const TriangleMesh& truth, const Tr
   std::vector<std::uint8_t> found;
   for (std::size_t i = 0; i < rooms.size(); ++i) {
     scores.rooms.push_back(room_score(rooms[i], *scores.volume, i, params.found_share));
+    scores.rooms.back().heights = score_heights(rooms[i], truth_columns, model_columns);
     found.push_back(scores.rooms.back().found() ? 1 : 0);
   }
   scores.columns = score_columns(described.columns, rooms, truth_columns, model_columns);

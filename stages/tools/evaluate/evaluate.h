@@ -35,6 +35,7 @@ struct RoomScore {
   double volume_m3 = 0;
   double empty_m3 = 0, unknown_m3 = 0;  ///< parts of it, in the model
   RoomAnswer answer = RoomAnswer::kDenied;
+  RoomHeights heights = {};
   bool found() const { return answer == RoomAnswer::kFound; }
 };
 

@@ -94,6 +94,8 @@ Json rooms_json(const Scores& scores) {
                     {"found", room.found()},
                     {"unknown_in_model", share(room.unknown_m3, room.volume_m3)},
                     {"answer", kRoomAnswers[static_cast<std::size_t>(room.answer)]},
+                    {"floor_off_m", or_null(room.heights.floor_off_m)},
+                    {"ceiling_off_m", or_null(room.heights.ceiling_off_m)},
                     {"scanned", room.room.scanned}});
   }
   return {{"truth", scores.rooms.size()},

@@ -7,6 +7,7 @@
 
 #include "stages/tools/synthesize/column.h"
 #include "stages/tools/synthesize/room_heights.h"
+#include "stages/tools/synthesize/scene_limits.h"
 
 namespace roomcut::synthesize {
 
@@ -16,7 +17,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSameCircle = 1e-6;  // [m]
-constexpr double kSteepest = 85;      // of slopes [degrees]
+constexpr double kSteepest = 75;      // of slopes [degrees]
 
 class ElementReader {
  public:
@@ -25,6 +26,11 @@ class ElementReader {
   void read() {
     each("slopes", &ElementReader::read_slope);
     if (const json* value = node_.member("roof")) read_roof(*value, node_.path("roof"));
+    if (room_.slopes.size() > scene_limits::kSlopes) {
+      node_.problem("more than " + std::to_string(scene_limits::kSlopes) + " slopes, the roof's among them",
+                    "divide the room, or leave some out");
+      room_.slopes.clear();
+    }
     each("columns", &ElementReader::read_column);
     each("niches", &ElementReader::read_niche);
   }

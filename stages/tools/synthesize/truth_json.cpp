@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -26,18 +27,19 @@ json point(const Vec3& p) {
 
 /// Of the room alone, without doorways and niches.
 double room_volume(const SceneRoom& room) {
-  if (room.slopes.empty() && room.columns.empty()) {
+  if (room.slopes.empty() && room.columns.empty() && room.niches.empty()) {
     return doubled_area(room.polygon) / 2 * (room.ceiling - room.floor);
   }
   Scene alone;
   alone.rooms.push_back(room);
-  alone.rooms[0].niches.clear();
+  std::erase_if(alone.rooms[0].niches, [](const SceneNiche& niche) { return niche.depth > 0; });
   return volume(make_truth(alone, place(alone)));
 }
 
 double room_area(const SceneRoom& room) {
   double area = doubled_area(room.polygon) / 2;
   for (const SceneColumn& column : room.columns) area -= doubled_area(column.polygon) / 2;
+  for (const SceneNiche& niche : room.niches) area += std::min(niche.depth, 0.0) * niche.width;
   return area;
 }
 

@@ -98,5 +98,19 @@ TEST(ElementScores, ANicheIsMetWhereFacesOfTheModelLieWithinTwoCentimetres) {
   EXPECT_NEAR(score(box({0, 0, 0}, {5.985, 4, 3})).near_m2(), 14.8, 0.1);
 }
 
+TEST(ElementScores, HeightsAreOffByTheMedianOfTheRoom) {
+  const Columns truth(kHall);
+  const TriangleMesh higher = box({0, 0, 0.004}, {6, 4, 2.99});
+  const RoomHeights off = score_heights(kRoom, truth, Columns(higher));
+  EXPECT_NEAR(*off.floor_off_m, 0.004, 1e-12);
+  EXPECT_NEAR(*off.ceiling_off_m, -0.01, 1e-12);
+  const TriangleMesh elsewhere = box({0, 0, 4}, {6, 4, 7});
+  EXPECT_FALSE(score_heights(kRoom, truth, Columns(elsewhere)).floor_off_m);
+  const TriangleMesh roof = under_roof(30);
+  TruthRoom room = kRoom;
+  room.ceiling = 6;
+  EXPECT_NEAR(*score_heights(room, Columns(roof), Columns(roof)).ceiling_off_m, 0, 1e-12);
+}
+
 }  // namespace
 }  // namespace roomcut::evaluate

@@ -8,6 +8,7 @@
 #include "common/mesh/mesh_check.h"
 #include "stages/tools/synthesize/families.h"
 #include "stages/tools/synthesize/room_heights.h"
+#include "stages/tools/synthesize/synthesize_io.h"
 #include "tests/unit/synthesize/test_scenes.h"
 
 namespace roomcut::synthesize {
@@ -215,6 +216,27 @@ TEST(Elements, RandomArcsLieOnTheirCirclesAndAreSmooth) {
   }
   EXPECT_GT(bulging, 20U);
   EXPECT_GT(hollow, 3U);
+}
+
+TEST(Elements, TheTruthNamesColumnsNichesAndArcsOfEveryCopy) {
+  Scene scene = hall(R"({"columns": [{"at": [2, 2], "width": 0.4, "shape": "round"}],
+    "niches": [{"at": [2, 0], "width": 0.5, "depth": 0.2}, {"at": [6, 0], "width": 0.6, "depth": -0.1}]})",
+                     3);
+  scene.rooms[0].arcs.push_back({{1, 2}, 3, {4, 2}, {1, 5}, true});
+  scene.repeat.x = 2;
+  const Building building = place(scene);
+  const json truth = truth_json(scene, building, make_truth(scene, building), 0);
+  ASSERT_EQ(truth["columns"].size(), 2U);
+  EXPECT_EQ(truth["columns"][0]["shape"], "round");
+  EXPECT_NEAR(truth["columns"][1]["center"][0].get<double>() - 2, 8.4, 1e-6);  // the gap is 40 cm
+  EXPECT_EQ(truth["columns"][1]["room"], 1);
+  ASSERT_EQ(truth["niches"].size(), 4U);
+  EXPECT_FALSE(truth["niches"][0]["pilaster"].get<bool>());
+  EXPECT_TRUE(truth["niches"][1]["pilaster"].get<bool>());
+  EXPECT_NEAR(truth["niches"][1]["depth"].get<double>(), 0.1, 1e-9);
+  ASSERT_EQ(truth["arcs"].size(), 2U);
+  EXPECT_NEAR(truth["arcs"][0]["radius"].get<double>(), 3, 1e-9);
+  EXPECT_NEAR(truth["rooms"][0]["volume"].get<double>(), 3 * (48 - kPi * 0.04 - 0.06), 1e-5);
 }
 
 TEST(Elements, HeightsDifferByWholeCentimetres) {
