@@ -14,9 +14,9 @@ namespace {
 constexpr double kTukey = 4.685;
 constexpr double kCauchy = 2.385;  // wide: finds the way from a bad start
 constexpr double kMadToSigma = 1.4826;
-constexpr double kLargestUnevenness_m = 0.03;
+constexpr double kLargestUnevenness_m = 0.05;
 constexpr double kTypicalUnevenness_m = 0.001;
-constexpr double kSurface_m = 0.002;  // scale on which the best of several starts is told
+constexpr double kSurface_m = 0.002;  // smallest scale on which the best of several starts is told
 constexpr double kGradientPrior = 0.02;
 constexpr double kSmallestShare = 0.02;
 constexpr double kFlattest = 0.3;  // mean slope of the loss
@@ -170,25 +170,28 @@ PlaneFit fit_from(Samples samples, PlaneFit fit, Loss first) {
   return fit;
 }
 
+/// The best of the fits from all starts, on the scale of the most even one: a floor that drifts by
+/// centimetres is not where most of its patches happen to agree.
 PlaneFit fit_plane(Samples samples, PlaneFit home) {
   home.gradient = home.expected;
-  PlaneFit best;
-  double least = std::numeric_limits<double>::infinity();
-  const auto consider = [&](const PlaneFit& fit) {
-    const double cost =
-        truncated_cost(samples, kSurface_m, [&](const Sample& s) { return s.z - fit.height(s.at); });
-    if (cost < least) {
-      least = cost;
-      best = fit;
-    }
-  };
+  std::vector<PlaneFit> fits;
   for (const double start : start_heights(samples, home)) {
     home.z = start;
-    consider(fit_from(samples, home, Loss::kSharp));
+    fits.push_back(fit_from(samples, home, Loss::kSharp));
     if (home.tilts) {
-      consider(fit_from(samples, home, Loss::kWide));
+      fits.push_back(fit_from(samples, home, Loss::kWide));
     }
   }
+  double scale = std::numeric_limits<double>::infinity();
+  for (const PlaneFit& fit : fits) {
+    scale = std::min(scale, fit.unevenness_m);
+  }
+  scale = std::max(scale, kSurface_m);
+  const auto cost = [&](const PlaneFit& fit) {
+    return truncated_cost(samples, scale, [&](const Sample& s) { return s.z - fit.height(s.at); });
+  };
+  PlaneFit best = *std::min_element(fits.begin(), fits.end(),
+                                    [&](const PlaneFit& a, const PlaneFit& b) { return cost(a) < cost(b); });
   measure_rms(samples, best);
   return best;
 }

@@ -65,7 +65,7 @@ double truncated_cost(std::span<const Sample> samples, double unevenness_m, Off&
   return sum;
 }
 
-/// What residuals scatter beyond the samples' variances [m]: robust, at most 3 cm. `residuals` as samples.
+/// What residuals scatter beyond the samples' variances [m]: robust, at most 5 cm. `residuals` as samples.
 double unevenness(std::span<const Sample> samples, const std::vector<double>& residuals);
 
 /// Sum of the samples' shares: patches of floor.
