@@ -305,7 +305,7 @@ case $command in
     rules extract
     if [ -n "$CONFIG" ]; then set -- --config "$CONFIG"; else set --; fi
     if [ -f "${TRUTH%.*}.json" ]; then set -- "$@" --truth-json "${TRUTH%.*}.json"; fi
-    "$BIN/evaluate" --work . --truth "$TRUTH" --cells 90_final/cells.h5 --labels 90_final/labels.h5 --terms 90_final/data_terms.h5 --cloud 10_ingest/cloud.h5 ${JOBS:+--threads "$JOBS"} ${QUIET:+-q} "$@" ;;
+    "$BIN/evaluate" --work . --truth "$TRUTH" --cells 90_final/cells.h5 --labels 90_final/labels.h5 --terms 90_final/data_terms.h5 --surfaces 92_fit_surfaces/surfaces.h5 --cloud 10_ingest/cloud.h5 ${JOBS:+--threads "$JOBS"} ${QUIET:+-q} "$@" ;;
   plot)
     refresh
     rules "$1"

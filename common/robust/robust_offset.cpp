@@ -50,12 +50,6 @@ double fullest_window(const std::vector<Bin>& bins, double width_m, double noise
 
 }  // namespace
 
-std::uint64_t OffsetHistogram::pack(double position_in_bin) {
-  constexpr double kHalf = 0.5;  // rounds what is never negative
-  const auto step = static_cast<std::uint64_t>(std::clamp(position_in_bin, 0.0, 1.0) * (kSteps - 1) + kHalf);
-  return (std::uint64_t{1} << kSumBits) + step;
-}
-
 double OffsetHistogram::mean(std::uint64_t packed) {
   const std::uint64_t sum = packed & ((std::uint64_t{1} << kSumBits) - 1);
   return static_cast<double>(sum) / (static_cast<double>(count(packed)) * (kSteps - 1));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -13,7 +14,13 @@ struct OffsetHistogram {
   static constexpr int kSumBits = 40;
   static constexpr std::uint64_t kSteps = 1024;  ///< of position inside a bin
 
-  static std::uint64_t pack(double position_in_bin);  ///< 0 … 1
+  /// What one point adds; 0 … 1.
+  static std::uint64_t pack(double position_in_bin) {
+    constexpr double kHalf = 0.5;  // rounds what is never negative
+    const auto step =
+        static_cast<std::uint64_t>(std::clamp(position_in_bin, 0.0, 1.0) * (kSteps - 1) + kHalf);
+    return (std::uint64_t{1} << kSumBits) + step;
+  }
   static std::uint32_t count(std::uint64_t packed) { return static_cast<std::uint32_t>(packed >> kSumBits); }
   /// Mean position inside the bin, 0 … 1.
   static double mean(std::uint64_t packed);

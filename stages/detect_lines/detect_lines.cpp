@@ -10,7 +10,9 @@
 #include "common/errors/codes.h"
 #include "common/errors/error.h"
 #include "common/geometry/preferred_number.h"
+#include "stages/detect_lines/column_lines.h"
 #include "stages/detect_lines/free_cells.h"
+#include "stages/detect_lines/jogs.h"
 #include "stages/detect_lines/mean_shift.h"
 #include "stages/detect_lines/merge_lines.h"
 
@@ -111,6 +113,14 @@ class LineSearch {
 
   const HoughAccumulator& votes() const { return votes_; }
 
+  /// What is explained already votes for no line.
+  void leave_out(const CellIndices& explained) {
+    CellIndices voters;
+    std::copy_if(explained.begin(), explained.end(), std::back_inserter(voters),
+                 [&](std::uint32_t i) { return cells_.boundary[i] != 0; });
+    take_out(voters);
+  }
+
   std::vector<LineCandidate> run() { return params_.search == "greedy" ? greedy() : modes(); }
 
  private:
@@ -188,11 +198,65 @@ class LineSearch {
   FreeCells free_;
 };
 
+std::vector<double> heights_of(const Slices& slices) {
+  std::vector<double> heights;
+  for (std::size_t k = 0; k + 1 < slices.levels.size(); ++k) {
+    heights.push_back(slices.levels[k + 1].z - slices.levels[k].z);
+  }
+  return heights;
+}
+
+OutlineRules column_fit(const Slices& slices) {
+  return {slices.tau_m, std::max({0.03, 3 * slices.noise_m, 0.5 * slices.tau_m})};
+}
+
+/// Mean direction of the lines that go as most of the walls do, modulo 90 degrees; `main` to start with.
+double direction_of(const std::vector<LineCandidate>& lines, double main) {
+  double sum = 0, weight = 0;
+  for (const LineCandidate& line : lines) {
+    const double off = std::remainder(line.line.theta - main, std::numbers::pi / 2);
+    const double length = line.support.support_m;
+    if (std::abs(off) > 2 * kDegree) continue;
+    sum += length * length * length * off;  // as its weight in a fit
+    weight += length * length * length;
+  }
+  return weight > 0 ? main + sum / weight : main;
+}
+
+CellIndices cells_of_no_line(const WallCells& cells, const std::vector<Column>& columns,
+                             const std::vector<LineCandidate>& lines) {
+  std::vector<bool> taken(cells.size(), false);
+  for (const Column& column : columns) {
+    for (const std::uint32_t i : column.cells) taken[i] = true;
+  }
+  for (const LineCandidate& line : lines) {
+    for (const std::uint32_t i : line.support.cells) taken[i] = true;
+  }
+  CellIndices free;
+  for (std::uint32_t i = 0; i < cells.size(); ++i) {
+    if (!taken[i]) free.push_back(i);
+  }
+  return free;
+}
+
+/// Adds the sides of columns, niches and pilasters to the lines.
+void add_short_lines(const Slices& slices, const WallCells& cells, const std::vector<Column>& columns,
+                     const Rules& rules, std::vector<LineCandidate>& lines) {
+  const double theta = direction_of(lines, main_direction(cells));
+  std::vector<Side> sides = sides_of_columns(cells, columns, theta, column_fit(slices));
+  const CellIndices free = cells_of_no_line(cells, columns, lines);
+  const PieceRules pieces{slices.tau_m, slices.noise_m, rules.fit.inlier_m};
+  for (Side& side : short_sides(cells, free, lines, pieces)) sides.push_back(std::move(side));
+  const double aligned_m = std::max(0.004, 0.6 * slices.noise_m);
+  for (LineCandidate& line : align_sides(std::move(sides), aligned_m)) lines.push_back(std::move(line));
+}
+
 WallLine to_wall_line(const LineCandidate& candidate, const WallCells& cells, std::size_t index) {
   const std::string number = std::to_string(index + 1);
   const FitQuality fit = quality(cells, candidate.support.cells, candidate.line);
   WallLine wall;
   wall.id = "w" + std::string(4 - std::min<std::size_t>(4, number.size()), '0') + number;
+  if (!candidate.column.empty()) wall.extra_json = "{\"column\":\"" + candidate.column + "\"}";
   wall.a = candidate.line.at(candidate.support.t0);
   wall.b = candidate.line.at(candidate.support.t1);
   wall.support_m = candidate.support.support_m;
@@ -235,13 +299,17 @@ DetectLinesResult detect_lines(const Slices& slices, const DetectLinesParams& pa
   WallCells& cells = result.cells;
   if (cells.size() == 0) no_lines(cells, params);
   const Rules rules = derive_rules(slices, cells, params, result.choices);
+  const std::vector<Column> columns =
+      find_columns(cells, {slices.noise_m, heights_of(slices), column_fit(slices)});
   LineSearch search(cells, rules, params);
   result.hough = picture_of(search.votes(), rules);
+  for (const Column& column : columns) search.leave_out(column.cells);
   std::vector<LineCandidate> found = search.run();
   const std::size_t before = found.size();
   found = merge_near_duplicates(cells, std::move(found), rules.merge, rules.fit);
   result.merged = before - found.size();
   if (found.empty()) no_lines(cells, params);
+  add_short_lines(slices, cells, columns, rules, found);
 
   result.lines.frame = slices.frame;
   result.lines.bbox_min = slices.bbox_min.head<2>();

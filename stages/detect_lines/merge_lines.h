@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "stages/detect_lines/line_fit.h"
@@ -11,6 +12,7 @@ namespace roomcut::detect_lines {
 struct LineCandidate {
   Line2 line;
   Support support;
+  std::string column = {};  ///< name of the column of which it is a side
 };
 
 struct MergeRules {

@@ -113,6 +113,7 @@ void append(const OccupancyGrid& grid, int slice, WallCells& cells) {
   cells.y.insert(cells.y.end(), grid.y.begin(), grid.y.end());
   cells.weight_m.insert(cells.weight_m.end(), grid.weight_m.begin(), grid.weight_m.end());
   cells.area_m2.insert(cells.area_m2.end(), grid.area_m2.begin(), grid.area_m2.end());
+  cells.coverage.insert(cells.coverage.end(), grid.coverage.begin(), grid.coverage.end());
   cells.slice.insert(cells.slice.end(), grid.size(), slice);
   cells.theta.resize(cells.x.size(), 0.0F);
   cells.offset_m.resize(cells.x.size(), 0.0F);

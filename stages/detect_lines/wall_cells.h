@@ -14,6 +14,7 @@ struct WallCells {
   std::vector<float> x, y;             ///< centroid [m]
   std::vector<float> weight_m;         ///< length of wall the cell speaks for
   std::vector<float> area_m2;          ///< surface of its points: weight in a fit
+  std::vector<float> coverage;         ///< share of the height of its slice's evidence that is occupied
   std::vector<float> theta;            ///< direction of the normal, [0, pi) [rad]; 0 for clutter
   std::vector<float> offset_m;         ///< of the neighbourhood's mean from the centroid, along the normal
   std::vector<std::uint8_t> boundary;  ///< 1 = piece of a wall, 0 = clutter

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 
 #include "stages/fit_surfaces/model_choice.h"
+#include "stages/fit_surfaces/pool.h"
 #include "stages/fit_surfaces/regions.h"
+#include "stages/fit_surfaces/roughness.h"
 #include "stages/fit_surfaces/split.h"
 
 namespace roomcut::fit_surfaces {
@@ -81,34 +84,116 @@ std::vector<Vec2> corners_of(const CellComplex& complex, const Region& region) {
   return corners;
 }
 
+/// A region with what was seen of it and, where that is enough, its surface.
+struct FittedRegion {
+  Region region;
+  std::vector<Sample> samples;
+  Vec2 middle{0, 0};
+  double area = 0;
+  std::int64_t points = 0;
+  Fits fits;  ///< of a level one with samples
+  std::optional<PlaneFit> fit;
+};
+
 /// The plane itself where its points don't tell better.
-LevelSurface fit_sloped(const SlopedPlane& plane, const std::vector<Sample>& samples, const Vec2& middle,
-                        double area, std::int64_t points, std::int32_t index) {
-  if (patches(samples) >= kPlanePatches) {
-    const PlaneFit fit = fit_tilted(samples, middle, plane.gradient);
-    if (std::abs(fit.z - plane.height(middle)) < kPlaneShift_m &&
+LevelSurface fit_sloped(const SlopedPlane& plane, const FittedRegion& of, const Roughness& roughness) {
+  if (patches(of.samples) >= kPlanePatches) {
+    PlaneFit fit = fit_tilted(of.samples, of.middle, plane.gradient);
+    measure_covariance(of.samples, roughness, fit);
+    if (std::abs(fit.z - plane.height(of.middle)) < kPlaneShift_m &&
         (fit.gradient - plane.gradient).norm() < kPlaneTurn * (1 + plane.gradient.squaredNorm())) {
-      return as_surface(fit, area, points, index);
+      return as_surface(fit, of.area, of.points, of.region.plane);
     }
   }
-  return {plane.gradient, plane.c, plane.rms_m, area, 0, index};
+  return {plane.gradient, plane.c, plane.rms_m, of.area, 0, of.region.plane};
+}
+
+double level_of(const CellComplex& complex, const FittedRegion& of) {
+  return complex.levels[static_cast<std::size_t>(of.region.level)];
 }
 
 /// A level region's surface; none where too little was seen.
-std::optional<PlaneFit> fit_region(const CellComplex& complex, const Region& region,
-                                   const std::vector<Sample>& samples, double patch_m2, bool may_tilt) {
-  const double area = area_of(complex, region);
-  const double seen = patches(samples) * patch_m2;
-  if (samples.empty() || seen < std::min(kSeenShare * area, kSeen_m2)) {
+std::optional<PlaneFit> fit_region(const CellComplex& complex, const FittedRegion& of,
+                                   const Roughness& roughness, double patch_m2, bool may_tilt) {
+  const double seen = patches(of.samples) * patch_m2;
+  if (of.samples.empty() || seen < std::min(kSeenShare * of.area, kSeen_m2)) {
     return {};
   }
-  const Vec2 middle = middle_of(complex, region);
-  const PlaneFit fit = fit_surface(samples, middle, corners_of(complex, region), may_tilt);
-  const double shift = std::abs(fit.z - complex.levels[static_cast<std::size_t>(region.level)]);
-  if (shift > kFar_m && seen < kSeenShareFar * area) {
+  const PlaneFit fit =
+      choose_surface(of.samples, of.fits, corners_of(complex, of.region), roughness, may_tilt);
+  if (std::abs(fit.z - level_of(complex, of)) > kFar_m && seen < kSeenShareFar * of.area) {
     return {};
   }
   return fit;
+}
+
+Roughness roughness_of(const std::vector<FittedRegion>& regions, double patch_m) {
+  std::vector<RoughRegion> rough;
+  for (const FittedRegion& of : regions) {
+    if (of.region.plane < 0 && !of.samples.empty()) {
+      rough.push_back({of.samples, &of.fits});
+    }
+  }
+  return measure_roughness(rough, patch_m);
+}
+
+/// Level floors and ceilings of one level and side share what they have in common.
+void pool_regions(std::vector<FittedRegion>& regions) {
+  std::map<std::pair<std::int32_t, bool>, std::vector<PlaneFit*>> alike;
+  for (FittedRegion& of : regions) {
+    if (of.fit && of.fit->gradient == Vec2(0, 0)) {
+      alike[{of.region.level, of.region.ceiling}].push_back(&*of.fit);
+    }
+  }
+  for (const auto& [key, fits] : alike) {
+    std::vector<PooledHeight> heights;
+    for (const PlaneFit* fit : fits) {
+      heights.push_back({fit->z, std::sqrt(fit->covariance(0, 0))});
+    }
+    pool_heights(heights);
+    for (std::size_t i = 0; i < fits.size(); ++i) {
+      fits[i]->z = heights[i].z;
+      fits[i]->covariance(0, 0) = heights[i].sigma * heights[i].sigma;
+    }
+  }
+}
+
+/// Median of values by their weights; 0 = there are none.
+double weighted_median(std::vector<std::pair<double, double>> values) {
+  std::sort(values.begin(), values.end());
+  double half = 0;
+  for (const auto& [value, weight] : values) {
+    half += 0.5 * weight;
+  }
+  for (const auto& [value, weight] : values) {
+    half -= weight;
+    if (half <= 0) {
+      return value;
+    }
+  }
+  return 0;
+}
+
+/// Counts what became of level regions.
+void summarise(const CellComplex& complex, const std::vector<FittedRegion>& regions, FittedSurfaces& result) {
+  std::vector<std::pair<double, double>> shifts;
+  for (const FittedRegion& of : regions) {
+    if (of.region.plane >= 0) {
+      continue;
+    }
+    ++result.regions;
+    if (!of.fit) {
+      ++result.unseen;
+      continue;
+    }
+    result.tilted += of.fit->gradient.norm() > 0 ? 1 : 0;
+    shifts.emplace_back(std::abs(of.fit->z - level_of(complex, of)), of.area);
+    result.largest_shift_m = std::max(result.largest_shift_m, shifts.back().first);
+    if (of.area >= kLarge_m2) {
+      result.largest_rms_m = std::max(result.largest_rms_m, of.fit->rms_m);
+    }
+  }
+  result.median_shift_m = weighted_median(std::move(shifts));
 }
 
 }  // namespace
@@ -128,7 +213,7 @@ FittedSurfaces SurfaceFitter::fit() const {
   const double patch_m2 = params_.patch_m * params_.patch_m;
   std::vector<std::int64_t> points;
   const FaceSamples samples = sort_samples(seats_, chosen, observations, patch_m2, points);
-  std::vector<Region> regions;
+  std::vector<FittedRegion> regions;
   for (Region& region : find_regions(complex_, seats_, chosen)) {
     std::vector<Region> parts;
     if (params_.split && region.plane < 0) {
@@ -137,50 +222,42 @@ FittedSurfaces SurfaceFitter::fit() const {
       parts.push_back(std::move(region));
     }
     result.split += parts.size() - 1;
-    std::move(parts.begin(), parts.end(), std::back_inserter(regions));
+    for (Region& part : parts) {
+      FittedRegion of;
+      of.region = std::move(part);
+      of.samples = samples.of_all(of.region.faces);
+      of.middle = middle_of(complex_, of.region);
+      if (of.region.plane < 0 && !of.samples.empty()) {
+        of.fits = fit_both(of.samples, of.middle);
+      }
+      of.area = area_of(complex_, of.region);
+      for (const std::size_t face : of.region.faces) {
+        of.points += points[face];
+      }
+      regions.push_back(std::move(of));
+    }
   }
+  result.roughness = roughness_of(regions, params_.patch_m);
+  for (FittedRegion& of : regions) {
+    if (of.region.plane < 0) {
+      of.fit = fit_region(complex_, of, result.roughness, patch_m2, params_.tilt);
+    }
+  }
+  pool_regions(regions);
+  summarise(complex_, regions, result);
   std::vector<LevelSurface>& surfaces = result.surfaces.surfaces;
   result.surfaces.of_face.assign(chosen.size(), -1);
-  std::vector<std::pair<double, double>> shifts;
-  for (const Region& region : regions) {
-    const std::vector<Sample> own = samples.of_all(region.faces);
-    const double area = area_of(complex_, region);
-    std::int64_t count = 0;
-    for (const std::size_t face : region.faces) {
-      count += points[face];
-    }
-    if (region.plane >= 0) {
-      surfaces.push_back(fit_sloped(complex_.planes[static_cast<std::size_t>(region.plane)], own,
-                                    middle_of(complex_, region), area, count, region.plane));
+  for (const FittedRegion& of : regions) {
+    if (of.region.plane >= 0) {
+      surfaces.push_back(
+          fit_sloped(complex_.planes[static_cast<std::size_t>(of.region.plane)], of, result.roughness));
+    } else if (of.fit) {
+      surfaces.push_back(as_surface(*of.fit, of.area, of.points, -1));
     } else {
-      ++result.regions;
-      const std::optional<PlaneFit> fit = fit_region(complex_, region, own, patch_m2, params_.tilt);
-      if (!fit) {
-        ++result.unseen;
-        continue;
-      }
-      surfaces.push_back(as_surface(*fit, area, count, -1));
-      result.tilted += fit->gradient.norm() > 0 ? 1 : 0;
-      shifts.emplace_back(std::abs(fit->z - complex_.levels[static_cast<std::size_t>(region.level)]), area);
-      result.largest_shift_m = std::max(result.largest_shift_m, shifts.back().first);
-      if (area >= kLarge_m2) {
-        result.largest_rms_m = std::max(result.largest_rms_m, fit->rms_m);
-      }
+      continue;
     }
-    for (const std::size_t face : region.faces) {
+    for (const std::size_t face : of.region.faces) {
       result.surfaces.of_face[face] = static_cast<std::int32_t>(surfaces.size()) - 1;
-    }
-  }
-  std::sort(shifts.begin(), shifts.end());
-  double half = 0;
-  for (const auto& [shift, area] : shifts) {
-    half += 0.5 * area;
-  }
-  for (const auto& [shift, area] : shifts) {
-    result.median_shift_m = shift;
-    half -= area;
-    if (half <= 0) {
-      break;
     }
   }
   return result;

@@ -9,6 +9,7 @@
 #include "common/cloud/cloud.h"
 #include "stages/fit_surfaces/observe.h"
 #include "stages/fit_surfaces/params.h"
+#include "stages/fit_surfaces/plane_fit.h"
 #include "stages/fit_surfaces/seats.h"
 
 namespace roomcut::fit_surfaces {
@@ -22,7 +23,8 @@ struct FittedSurfaces {
   std::size_t unseen = 0;   ///< too little seen: they keep their level
   double largest_shift_m = 0,
          median_shift_m = 0;  ///< between level and height at the middle, weighted by area
-  double largest_rms_m = 0;   ///< of patches about their surface, among those of 2 m² and more
+  Roughness roughness;
+  double largest_rms_m = 0;  ///< of patches about their surface, among those of 2 m² and more
 };
 
 /// Gives every floor and ceiling of a labelling its own height or plane (see README.md), by one pass over the

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+
 #include "common/cells/cells_io.h"
 #include "common/cells/surfaces_io.h"
 #include "common/cli/run_stage.h"
@@ -30,6 +32,8 @@ void report(StageRun& run, const FittedSurfaces& fitted) {
   run.count("left at their level", static_cast<double>(fitted.unseen));
   run.count("median shift", 1e3 * fitted.median_shift_m, "mm");
   run.count("largest shift", 1e3 * fitted.largest_shift_m, "mm");
+  run.count("roughness", 1e3 * std::sqrt(fitted.roughness.variance_m2), "mm");
+  run.count("patches that err as one", fitted.roughness.patches);
   run.count("largest deviation", 1e3 * fitted.largest_rms_m, "mm");
 }
 

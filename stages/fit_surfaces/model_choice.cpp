@@ -16,11 +16,11 @@ namespace {
 constexpr double kFinest_m = 0.0005;    // no floor is more even than this
 constexpr double kFewestPatches = 6;    // to prove a tilt
 constexpr double kLeastFall_m = 0.002;  // over the samples
-constexpr double kSteepest = 0.05;      // steeper floors are sloped planes, which slice finds
+constexpr double kSteepest = 0.1;       // steeper floors are sloped planes, which slice finds
 constexpr double kChance = 13.8;        // chi square of two degrees of freedom: one in a thousand
 constexpr double kOutside_m = 1;        // a tilt may go on this far, and as far again as it was seen
 
-double level_cost(std::span<const Sample> samples, double scale, const PlaneFit& fit) {
+double cost_of(std::span<const Sample> samples, double scale, const PlaneFit& fit) {
   return truncated_cost(samples, scale, [&](const Sample& s) { return s.z - fit.height(s.at); });
 }
 
@@ -74,11 +74,10 @@ struct Costs {
   double level = 0, tilted = 0, two = std::numeric_limits<double>::infinity();
 };
 
-Costs costs_of(std::span<const Sample> samples, const PlaneFit& level, const PlaneFit& tilted,
-               const TwoHeights* two) {
-  double scale = std::max(kFinest_m, std::min(level.unevenness_m, tilted.unevenness_m));
+Costs costs_of(std::span<const Sample> samples, const Fits& fits, const TwoHeights* two) {
+  double scale = std::max(kFinest_m, std::min(fits.level.unevenness_m, fits.tilted.unevenness_m));
   scale = two != nullptr ? std::max(kFinest_m, std::min(scale, two->unevenness_m)) : scale;
-  Costs costs{level_cost(samples, scale, level), level_cost(samples, scale, tilted) + 2 * price(samples)};
+  Costs costs{cost_of(samples, scale, fits.level), cost_of(samples, scale, fits.tilted) + 2 * price(samples)};
   if (two != nullptr) {
     costs.two =
         3 * price(samples) + truncated_cost(samples, scale, [&](const Sample& s) { return two->off(s); });
@@ -88,22 +87,32 @@ Costs costs_of(std::span<const Sample> samples, const PlaneFit& level, const Pla
 
 }  // namespace
 
-PlaneFit fit_surface(std::span<const Sample> samples, const Vec2& middle, std::span<const Vec2> outline,
-                     bool may_tilt) {
-  const PlaneFit level = fit_level(samples, middle);
-  const PlaneFit tilted = may_tilt ? fit_tilted(samples, middle, Vec2(0, 0)) : level;
-  const std::optional<TwoHeights> two = find_two_heights(samples);
-  const Costs costs = costs_of(samples, level, tilted, two ? &*two : nullptr);
-  if (may_tilt && costs.tilted < std::min(costs.level, costs.two) && is_proven(samples, outline, tilted)) {
-    return tilted;
-  }
-  return costs.two < std::min(costs.level, costs.tilted) ? fit_level(larger_part(samples, *two), middle)
-                                                         : level;
+Fits fit_both(std::span<const Sample> samples, const Vec2& middle) {
+  return {fit_level(samples, middle), fit_tilted(samples, middle, Vec2(0, 0))};
 }
 
-bool has_two_heights(std::span<const Sample> samples, const Vec2& middle, const TwoHeights& two) {
-  const Costs costs =
-      costs_of(samples, fit_level(samples, middle), fit_tilted(samples, middle, Vec2(0, 0)), &two);
+PlaneFit choose_surface(std::span<const Sample> samples, Fits fits, std::span<const Vec2> outline,
+                        const Roughness& roughness, bool may_tilt) {
+  const std::optional<TwoHeights> two = find_two_heights(samples);
+  const Costs costs = costs_of(samples, fits, two ? &*two : nullptr);
+  if (may_tilt && costs.tilted < std::min(costs.level, costs.two)) {
+    measure_covariance(samples, roughness, fits.tilted);
+    if (is_proven(samples, outline, fits.tilted)) {
+      return fits.tilted;
+    }
+  }
+  if (costs.two < std::min(costs.level, may_tilt ? costs.tilted : costs.level)) {
+    const std::vector<Sample> part = larger_part(samples, *two);
+    PlaneFit fit = fit_level(part, fits.level.middle);
+    measure_covariance(part, roughness, fit);
+    return fit;
+  }
+  measure_covariance(samples, roughness, fits.level);
+  return fits.level;
+}
+
+bool has_two_heights(std::span<const Sample> samples, const Fits& fits, const TwoHeights& two) {
+  const Costs costs = costs_of(samples, fits, &two);
   return costs.two < std::min(costs.level, costs.tilted);
 }
 

@@ -62,7 +62,7 @@ void SurfaceObserver::add(const CloudTile& tile) {
   std::uint64_t taken = 0;
   for (std::size_t i = 0; i < tile.size(); ++i) {
     const auto surface = static_cast<SurfaceClass>(tile.surface[i]);
-    if (surface != SurfaceClass::kHorizontal && surface != SurfaceClass::kSloped) {
+    if (surface == SurfaceClass::kWall) {
       continue;
     }
     const Vec2 p(tile.x[i], tile.y[i]);
@@ -77,7 +77,7 @@ void SurfaceObserver::add(const CloudTile& tile) {
     std::size_t best = seats.size();
     for (std::size_t k = 0; k < seats.size(); ++k) {
       const double off = seats[k].cosine * (tile.z[i] - seats[k].height(p));
-      if (std::abs(off) < nearest && (surface == SurfaceClass::kHorizontal || seats[k].plane >= 0)) {
+      if (std::abs(off) < nearest && (surface != SurfaceClass::kSloped || seats[k].plane >= 0)) {
         nearest = std::abs(off);
         offset = off;
         best = k;

@@ -19,6 +19,7 @@ constexpr double kTypicalUnevenness_m = 0.001;
 constexpr double kSurface_m = 0.002;  // scale on which the best of several starts is told
 constexpr double kGradientPrior = 0.02;
 constexpr double kSmallestShare = 0.02;
+constexpr double kFlattest = 0.3;  // mean slope of the loss
 constexpr int kIterations = 50;
 constexpr int kRounds = 3;
 
@@ -30,6 +31,12 @@ double weight(double r, Loss loss) {
     return 1 / (1 + u * u);
   }
   return std::abs(u) < 1 ? (1 - u * u) * (1 - u * u) : 0;
+}
+
+/// Derivative of r · weight(r, Loss::kSharp).
+double slope(double r) {
+  const double q = r * r / (kTukey * kTukey);
+  return q < 1 ? (1 - q) * (1 - 5 * q) : 0;
 }
 
 /// Weighted median; shares as weights.
@@ -49,20 +56,16 @@ double median(std::vector<std::pair<double, double>> values) {
   return values.empty() ? 0 : values.back().first;
 }
 
-struct Problem {
-  std::span<const Sample> samples;
-  bool tilts = false;
-  Vec2 expected{0, 0};
-};
+using Samples = std::span<const Sample>;
 
-Eigen::Vector3d jacobian(const Problem& problem, const PlaneFit& fit, const Sample& s) {
-  const Vec2 arm = problem.tilts ? Vec2(s.at - fit.middle) : Vec2(0, 0);
+Eigen::Vector3d jacobian(const PlaneFit& fit, const Sample& s) {
+  const Vec2 arm = fit.tilts ? Vec2(s.at - fit.middle) : Vec2(0, 0);
   return {1, arm.x(), arm.y()};
 }
 
 /// What is known without samples: of a level surface that its gradient is none.
-Eigen::Matrix3d prior(const Problem& problem) {
-  const double of_gradient = problem.tilts ? 1 / (kGradientPrior * kGradientPrior) : 1;
+Eigen::Matrix3d prior(const PlaneFit& fit) {
+  const double of_gradient = fit.tilts ? 1 / (kGradientPrior * kGradientPrior) : 1;
   return Eigen::Vector3d(0, of_gradient, of_gradient).asDiagonal();
 }
 
@@ -72,17 +75,17 @@ double information(const Sample& s, double uneven) {
 }
 
 /// Iterated reweighted least squares from `fit` on.
-void solve(const Problem& problem, Loss loss, PlaneFit& fit) {
+void solve(Samples samples, Loss loss, PlaneFit& fit) {
   const double uneven2 = fit.unevenness_m * fit.unevenness_m;
   for (int i = 0; i < kIterations; ++i) {
-    Eigen::Matrix3d normal = prior(problem);
-    const Vec2 off = fit.gradient - problem.expected;
+    Eigen::Matrix3d normal = prior(fit);
+    const Vec2 off = fit.gradient - fit.expected;
     Eigen::Vector3d right = -normal * Eigen::Vector3d(0, off.x(), off.y());
-    for (const Sample& s : problem.samples) {
+    for (const Sample& s : samples) {
       const double r = s.z - fit.height(s.at);
       const double w =
           information(s, fit.unevenness_m) * weight(r / std::sqrt(s.variance_m2 + uneven2), loss);
-      const Eigen::Vector3d j = jacobian(problem, fit, s);
+      const Eigen::Vector3d j = jacobian(fit, s);
       normal += w * j * j.transpose();
       right += w * r * j;
     }
@@ -98,7 +101,7 @@ void solve(const Problem& problem, Loss loss, PlaneFit& fit) {
   }
 }
 
-std::vector<double> residuals_of(std::span<const Sample> samples, const PlaneFit& fit) {
+std::vector<double> residuals_of(Samples samples, const PlaneFit& fit) {
   std::vector<double> residuals;
   residuals.reserve(samples.size());
   for (const Sample& s : samples) {
@@ -108,13 +111,13 @@ std::vector<double> residuals_of(std::span<const Sample> samples, const PlaneFit
 }
 
 /// Heights at which the surface may lie over the middle: the median, and the two fullest 3 mm, of what the
-/// samples are above the expected gradient.
-std::vector<double> start_heights(const Problem& problem, const Vec2& middle) {
+/// samples are above the expected gradient; those nearly equal once.
+std::vector<double> start_heights(Samples samples, const PlaneFit& home) {
   constexpr double kBin_m = 0.003;
   std::vector<std::pair<double, double>> heights;
   std::map<long, double> bins;
-  for (const Sample& s : problem.samples) {
-    heights.emplace_back(s.z - problem.expected.dot(s.at - middle), s.share);
+  for (const Sample& s : samples) {
+    heights.emplace_back(s.z - home.expected.dot(s.at - home.middle), s.share);
     bins[std::lround(heights.back().first / kBin_m)] += s.share;
   }
   std::vector<std::pair<double, long>> fullest;
@@ -125,62 +128,27 @@ std::vector<double> start_heights(const Problem& problem, const Vec2& middle) {
   std::sort(fullest.begin(), fullest.end());
   std::vector<double> starts{median(heights)};
   for (std::size_t i = 0; i < std::min<std::size_t>(2, fullest.size()); ++i) {
-    starts.push_back(kBin_m * (static_cast<double>(fullest[i].second) + 0.5));
+    const double start = kBin_m * (static_cast<double>(fullest[i].second) + 0.5);
+    const auto is_near = [start](double other) { return std::abs(start - other) < 0.5 * kBin_m; };
+    if (std::none_of(starts.begin(), starts.end(), is_near)) {
+      starts.push_back(start);
+    }
   }
   return starts;
 }
 
-/// Covariance from the samples' own scatter, in blocks of one patch, 1, 2 and 4 m: neighbouring residuals
-/// resemble each other, and blocks larger than that don't. The largest counts, and no less than the
-/// variances of the samples let expect.
-Eigen::Matrix3d covariance(const Problem& problem, const PlaneFit& fit) {
-  constexpr double kFewestBlocks = 8;
-  const double uneven = std::max(fit.unevenness_m, kTypicalUnevenness_m);
-  Eigen::Matrix3d normal = prior(problem);
-  for (const Sample& s : problem.samples) {
-    const Eigen::Vector3d j = jacobian(problem, fit, s);
-    normal += information(s, uneven) * j * j.transpose();
-  }
-  const Eigen::Matrix3d expected = normal.inverse();
-  Eigen::Matrix3d largest = expected;
-  for (const double edge : {0.5, 1.0, 2.0, 4.0}) {
-    std::map<std::pair<long, long>, Eigen::Vector3d> scores;
-    for (const Sample& s : problem.samples) {
-      const double r = s.z - fit.height(s.at);
-      const double sigma = std::sqrt(s.variance_m2 + uneven * uneven);
-      const auto block =
-          std::pair{std::lround(std::floor(s.at.x() / edge)), std::lround(std::floor(s.at.y() / edge))};
-      const auto found = scores.try_emplace(block, Eigen::Vector3d::Zero()).first;
-      found->second +=
-          information(s, uneven) * weight(r / sigma, Loss::kSharp) * r * jacobian(problem, fit, s);
-    }
-    const double blocks = static_cast<double>(scores.size());
-    if (blocks < kFewestBlocks) {
-      break;
-    }
-    Eigen::Matrix3d middle = Eigen::Matrix3d::Zero();
-    for (const auto& [block, score] : scores) {
-      middle += score * score.transpose();
-    }
-    const double parameters = problem.tilts ? 3 : 1;
-    const double few = blocks / (blocks - parameters) * (1 + 2 / blocks);  // as Student's t
-    const Eigen::Matrix3d measured = few * expected * middle * expected;
-    if ((measured - largest).trace() > 0 || measured(0, 0) > largest(0, 0)) {
-      // Each parameter's larger variance; correlations are those of the larger height.
-      Eigen::Matrix3d joined = measured(0, 0) > largest(0, 0) ? measured : largest;
-      for (int i = 0; i < 3; ++i) {
-        joined(i, i) = std::max(measured(i, i), largest(i, i));
-      }
-      largest = joined;
-    }
-  }
-  return largest;
+/// How many times its own a variance can be that was measured on n independent patches: by chi square's lower
+/// 2.5 % (Wilson and Hilferty); below two patches, any.
+double largest_ratio(double n) {
+  const double q = 2 / (9 * n);
+  const double root = 1 - q - 1.96 * std::sqrt(q);
+  return root > 0 ? 1 / (root * root * root) : std::numeric_limits<double>::infinity();
 }
 
-void finish(const Problem& problem, PlaneFit& fit) {
+void measure_rms(Samples samples, PlaneFit& fit) {
   double squares = 0;
   double shares = 0;
-  for (const Sample& s : problem.samples) {
+  for (const Sample& s : samples) {
     const double r = s.z - fit.height(s.at);
     if (std::abs(r) < kTukey * std::sqrt(s.variance_m2 + fit.unevenness_m * fit.unevenness_m)) {
       squares += s.share * r * r;
@@ -188,41 +156,46 @@ void finish(const Problem& problem, PlaneFit& fit) {
     }
   }
   fit.rms_m = shares > 0 ? std::sqrt(squares / shares) : 0;
-  fit.covariance = covariance(problem, fit);
 }
 
-PlaneFit fit_plane(const Problem& problem, const Vec2& middle) {
+/// A fit from one start. A wide loss first finds the way to a tilt.
+PlaneFit fit_from(Samples samples, PlaneFit fit, Loss first) {
+  fit.unevenness_m =
+      first == Loss::kSharp ? kTypicalUnevenness_m : unevenness(samples, residuals_of(samples, fit));
+  solve(samples, first, fit);
+  for (int round = 0; round < kRounds; ++round) {
+    fit.unevenness_m = unevenness(samples, residuals_of(samples, fit));
+    solve(samples, Loss::kSharp, fit);
+  }
+  return fit;
+}
+
+PlaneFit fit_plane(Samples samples, PlaneFit home) {
+  home.gradient = home.expected;
   PlaneFit best;
   double least = std::numeric_limits<double>::infinity();
-  for (const double start : start_heights(problem, middle)) {
-    for (const Loss first : {Loss::kSharp, Loss::kWide}) {
-      PlaneFit fit;
-      fit.middle = middle;
-      fit.z = start;
-      fit.gradient = problem.expected;
-      fit.unevenness_m = first == Loss::kSharp
-                             ? kTypicalUnevenness_m
-                             : unevenness(problem.samples, residuals_of(problem.samples, fit));
-      solve(problem, first, fit);
-      for (int round = 0; round < kRounds; ++round) {
-        fit.unevenness_m = unevenness(problem.samples, residuals_of(problem.samples, fit));
-        solve(problem, Loss::kSharp, fit);
-      }
-      const double cost = truncated_cost(problem.samples, kSurface_m,
-                                         [&](const Sample& s) { return s.z - fit.height(s.at); });
-      if (cost < least) {
-        least = cost;
-        best = fit;
-      }
+  const auto consider = [&](const PlaneFit& fit) {
+    const double cost =
+        truncated_cost(samples, kSurface_m, [&](const Sample& s) { return s.z - fit.height(s.at); });
+    if (cost < least) {
+      least = cost;
+      best = fit;
+    }
+  };
+  for (const double start : start_heights(samples, home)) {
+    home.z = start;
+    consider(fit_from(samples, home, Loss::kSharp));
+    if (home.tilts) {
+      consider(fit_from(samples, home, Loss::kWide));
     }
   }
-  finish(problem, best);
+  measure_rms(samples, best);
   return best;
 }
 
 }  // namespace
 
-double unevenness(std::span<const Sample> samples, const std::vector<double>& residuals) {
+double unevenness(Samples samples, const std::vector<double>& residuals) {
   std::vector<std::pair<double, double>> deviations;
   std::vector<std::pair<double, double>> variances;
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -234,7 +207,7 @@ double unevenness(std::span<const Sample> samples, const std::vector<double>& re
                   std::sqrt(std::max(0.0, spread * spread - median(std::move(variances)))));
 }
 
-double patches(std::span<const Sample> samples) {
+double patches(Samples samples) {
   double sum = 0;
   for (const Sample& s : samples) {
     sum += s.share;
@@ -242,12 +215,74 @@ double patches(std::span<const Sample> samples) {
   return sum;
 }
 
-PlaneFit fit_level(std::span<const Sample> samples, const Vec2& middle) {
-  return fit_plane({samples, false, Vec2(0, 0)}, middle);
+PlaneFit fit_level(Samples samples, const Vec2& middle) {
+  PlaneFit home;
+  home.middle = middle;
+  return fit_plane(samples, home);
 }
 
-PlaneFit fit_tilted(std::span<const Sample> samples, const Vec2& middle, const Vec2& expected) {
-  return fit_plane({samples, true, expected}, middle);
+PlaneFit fit_tilted(Samples samples, const Vec2& middle, const Vec2& expected) {
+  PlaneFit home;
+  home.middle = middle;
+  home.tilts = true;
+  home.expected = expected;
+  return fit_plane(samples, home);
+}
+
+void measure_covariance(Samples samples, const Roughness& roughness, PlaneFit& fit) {
+  constexpr double kFewestBlocks = 8;
+  const double own = std::max(fit.unevenness_m, kTypicalUnevenness_m);
+  const double together = std::clamp(roughness.patches, 1.0, std::max(1.0, patches(samples)));
+  const double rough =
+      std::min(roughness.variance_m2, own * own * largest_ratio(patches(samples) / together));
+  const double uneven = std::sqrt(std::max(own * own, together * rough));
+  Eigen::Matrix3d normal = prior(fit);
+  Eigen::Matrix3d apart = prior(fit);  // as if each patch erred alone
+  double slopes = 0;
+  double all = 0;
+  for (const Sample& s : samples) {
+    const Eigen::Vector3d j = jacobian(fit, s);
+    normal += information(s, uneven) * j * j.transpose();
+    apart += information(s, own) * j * j.transpose();
+    const double r = s.z - fit.height(s.at);
+    slopes += information(s, own) * slope(r / std::sqrt(s.variance_m2 + own * own));
+    all += information(s, own);
+  }
+  // The loss answers a shift of the samples by less than squares would.
+  const Eigen::Matrix3d apart_inverse = apart.inverse() / std::clamp(slopes / all, kFlattest, 1.0);
+  const Eigen::Matrix3d expected = normal.inverse();
+  Eigen::Matrix3d largest = expected;
+  for (const double edge : {0.5, 1.0, 2.0, 4.0}) {
+    std::map<std::pair<long, long>, Eigen::Vector3d> scores;
+    for (const Sample& s : samples) {
+      const double r = s.z - fit.height(s.at);
+      const double sigma = std::sqrt(s.variance_m2 + own * own);
+      const auto block =
+          std::pair{std::lround(std::floor(s.at.x() / edge)), std::lround(std::floor(s.at.y() / edge))};
+      const auto found = scores.try_emplace(block, Eigen::Vector3d::Zero()).first;
+      found->second += information(s, own) * weight(r / sigma, Loss::kSharp) * r * jacobian(fit, s);
+    }
+    const double blocks = static_cast<double>(scores.size());
+    if (blocks < kFewestBlocks) {
+      break;
+    }
+    Eigen::Matrix3d middle = Eigen::Matrix3d::Zero();
+    for (const auto& [block, score] : scores) {
+      middle += score * score.transpose();
+    }
+    const double parameters = fit.tilts ? 3 : 1;
+    const double few = blocks / (blocks - parameters) * (1 + 2 / blocks);  // as Student's t
+    const Eigen::Matrix3d measured = few * apart_inverse * middle * apart_inverse;
+    if ((measured - largest).trace() > 0 || measured(0, 0) > largest(0, 0)) {
+      // Each parameter's larger variance; correlations are those of the larger height.
+      Eigen::Matrix3d joined = measured(0, 0) > largest(0, 0) ? measured : largest;
+      for (int i = 0; i < 3; ++i) {
+        joined(i, i) = std::max(measured(i, i), largest(i, i));
+      }
+      largest = joined;
+    }
+  }
+  fit.covariance = largest;
 }
 
 }  // namespace roomcut::fit_surfaces

@@ -18,12 +18,20 @@ struct Sample {
   double share = 1;        ///< of a whole patch that it is, 0 … 1: how much it counts
 };
 
+/// How patches of floor err beyond their own variances, and how far they err alike.
+struct Roughness {
+  double variance_m2 = 0;
+  double patches = 1;  ///< that err as one
+};
+
 /// A plane fitted to samples: height z + gradient · (p - middle).
 struct PlaneFit {
   Vec2 middle{0, 0};
   double z = 0;
   Vec2 gradient{0, 0};
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of z and gradient
+  bool tilts = false;                                    ///< its gradient was fitted, too
+  Vec2 expected{0, 0};                                   ///< gradient where the samples don't tell
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of z and gradient, once measured
   double unevenness_m = 0;  ///< what the samples scatter about it beyond their variances
   double rms_m = 0;         ///< of the samples on it
 
@@ -37,6 +45,11 @@ PlaneFit fit_level(std::span<const Sample> samples, const Vec2& middle);
 /// Tilted plane through the samples, likewise; `expected` is what its gradient is where the samples don't
 /// tell, to within 0.02.
 PlaneFit fit_tilted(std::span<const Sample> samples, const Vec2& middle, const Vec2& expected);
+
+/// Fills in the covariance of a fit to these samples: as the building's roughness lets expect, or from the
+/// samples' own scatter in blocks of ½, 1, 2 and 4 m, where that is more: neighbouring residuals resemble
+/// each other, those of large blocks don't.
+void measure_covariance(std::span<const Sample> samples, const Roughness& roughness, PlaneFit& fit);
 
 /// Sum over the samples of their squared distance from what `off` gives for each, in standard deviations
 /// with `unevenness_m`, truncated: what costs more is another surface.

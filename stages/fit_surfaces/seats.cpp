@@ -4,21 +4,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/cells/stairs.h"
+
 namespace roomcut::fit_surfaces {
 namespace {
 
+constexpr double kNear = 0.25;     // of the way to a step
 constexpr double kMargin_m = 0.5;  // an outline is the hull of points: planes go on to the next wall
 
-/// Whether a plane at height z over the middle of a face is nearer to this level than to its neighbours. A
-/// level that stands for planes alone is reached from as far as the next level that does not: up to there the
-/// last step's strip goes.
-bool is_at(const CellComplex& complex, std::size_t level, double z) {
-  const std::vector<double>& levels = complex.levels;
-  const auto is_step = [&](std::size_t l) { return !complex.steps.empty() && complex.steps[l] != 0; };
+/// Whether a plane at height z over the middle of a face may be what the surface at this level stands for. A
+/// step stands for planes alone: all the way to its neighbours, as the cut may have taken the next step. Any
+/// other level is given up for a plane only where that comes near.
+bool is_at(const std::vector<double>& levels, const Stairs& stairs, std::size_t level, double z) {
   const auto border = [&](std::size_t next) {
-    return is_step(level) && !is_step(next)   ? levels[next]
-           : !is_step(level) && is_step(next) ? levels[level] + 0.25 * (levels[next] - levels[level])
-                                              : 0.5 * (levels[level] + levels[next]);
+    const double share = stairs.is_step(level) ? 1 : stairs.is_step(next) ? kNear : 0.5;
+    return levels[level] + share * (levels[next] - levels[level]);
   };
   return (level == 0 || z >= border(level - 1)) && (level + 1 == levels.size() || z <= border(level + 1));
 }
@@ -26,19 +26,23 @@ bool is_at(const CellComplex& complex, std::size_t level, double z) {
 }  // namespace
 
 void Seats::add(const CellComplex& complex, std::size_t face, std::size_t level, bool ceiling) {
+  const Stairs stairs(complex.levels, complex.steps);
   const Vec2 middle = complex.centroid(face);
-  const std::size_t before = seats_.size();
+  const double at = complex.levels[level];
+  const auto first = static_cast<std::ptrdiff_t>(seats_.size());
   for (std::size_t k = 0; k < complex.planes.size(); ++k) {
     const SlopedPlane& plane = complex.planes[k];
     if (plane.ceiling == ceiling && plane.covers(middle, kMargin_m) &&
-        is_at(complex, level, plane.height(middle))) {
+        is_at(complex.levels, stairs, level, plane.height(middle))) {
       seats_.push_back({static_cast<std::int32_t>(level), static_cast<std::int32_t>(k), ceiling,
                         plane.gradient, plane.c, 1 / std::sqrt(1 + plane.gradient.squaredNorm())});
     }
   }
-  const bool step = !complex.steps.empty() && complex.steps[level] != 0;
-  if (!step || seats_.size() == before) {
-    seats_.push_back({static_cast<std::int32_t>(level), -1, ceiling, Vec2(0, 0), complex.levels[level], 1});
+  std::stable_sort(seats_.begin() + first, seats_.end(), [&](const Seat& a, const Seat& b) {
+    return std::abs(a.height(middle) - at) < std::abs(b.height(middle) - at);
+  });
+  if (!stairs.is_step(level) || seats_.begin() + first == seats_.end()) {
+    seats_.push_back({static_cast<std::int32_t>(level), -1, ceiling, Vec2(0, 0), at, 1});
   }
 }
 

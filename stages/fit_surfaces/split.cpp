@@ -108,7 +108,7 @@ std::vector<Region> split_by_height(const CellComplex& complex, const FaceSample
   const std::optional<TwoHeights> two =
       region.faces.size() > 1 ? find_two_heights(all) : std::optional<TwoHeights>{};
   std::vector<Region> result;
-  if (two && has_two_heights(all, middle_of(complex, region), *two)) {
+  if (two && has_two_heights(all, fit_both(all, middle_of(complex, region)), *two)) {
     Votes votes = count_votes(samples, region, *two);
     const double smaller = std::min(votes.patches[kLow], votes.patches[kHigh]);
     if (smaller >= kFewest && votes.mixed <= kMixed * smaller) {

@@ -16,7 +16,7 @@ using namespace roomcut::partition;
 StageInfo info() {
   StageInfo stage;
   stage.name = "partition";
-  stage.revision = 2;
+  stage.revision = 3;
   stage.summary = "Cuts the plan into convex cells along the wall lines and stacks them between the levels";
   stage.inputs = {{"lines", "Accepted (or refined) wall lines"}, {"slices", "Levels of floors and ceilings"}};
   stage.outputs = {{"cells-out", "The cell complex"}};

@@ -17,6 +17,9 @@ namespace roomcut::partition {
 
 namespace {
 
+constexpr double kShort_m = 0.5;       // shorter lines are sides of niches and columns
+constexpr double kLeastReach_m = 0.1;  // their ends are good to this
+
 CellComplex::Line complex_line(const WallLine& wall, std::size_t layers) {
   if (!(wall.length() > kPlanSnap_m)) {
     throw StageError(errors::kLinesDegenerate, "wall line " + wall.id, "both ends are equal",
@@ -65,10 +68,18 @@ void bounding_box(const WallLines& lines, double margin, Vec2& low, Vec2& high) 
   high.array() += margin;
 }
 
+/// How far a line cuts on beyond its support. What is short is known to be short, its ends are seen; a wall
+/// whose ends hide behind furniture may go on.
+double reach_of(const CellComplex::Line& line, double extend_m) {
+  const double length = line.t1 - line.t0;
+  return length < kShort_m ? std::min(extend_m, std::max(kLeastReach_m, length)) : extend_m;
+}
+
 std::vector<PlanSegment> reaches(const std::vector<CellComplex::Line>& lines, double extend_m) {
   std::vector<PlanSegment> reach;
   for (const CellComplex::Line& line : lines) {
-    reach.push_back({line.line, line.t0 - extend_m, line.t1 + extend_m});
+    const double beyond = reach_of(line, extend_m);
+    reach.push_back({line.line, line.t0 - beyond, line.t1 + beyond});
   }
   return reach;
 }

@@ -52,8 +52,8 @@ LineObserver::LineObserver(const std::vector<LineFaces>& lines, const std::vecto
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
     track_of_[tracks_[k].line] = k;
   }
-  histograms_ = std::make_unique<std::atomic<std::uint64_t>[]>(static_cast<std::size_t>(patches) *
-                                                               kOffsetBins);
+  histograms_ =
+      std::make_unique<std::atomic<std::uint64_t>[]>(static_cast<std::size_t>(patches) * kOffsetBins);
   along_ = std::make_unique<std::atomic<std::int64_t>[]>(static_cast<std::size_t>(patches));
 }
 

@@ -74,9 +74,25 @@ Walls walls_beside(const PlanarRegion& region, const HeightSurvey& survey) {
   return walls;
 }
 
+/// Whether three of its voxels are near those of other regions: a flight of stairs ends at landings.
+bool touches_another(const PlanarRegion& region, const HeightSurvey& survey,
+                     const std::vector<std::int32_t>& region_of) {
+  constexpr int kEnough = 3;
+  const std::int32_t own = region_of[region.voxels.front()];
+  int touching = 0;
+  for (const std::uint32_t i : region.voxels) {
+    bool touches = false;
+    for_each_near(survey.voxels, survey.voxels[i].key, 1, 1,
+                  [&](std::size_t j) { touches |= region_of[j] >= 0 && region_of[j] != own; });
+    touching += touches ? 1 : 0;
+  }
+  return touching >= kEnough;
+}
+
 }  // namespace
 
-PlaneSide side_of(const PlanarRegion& region, const HeightSurvey& survey) {
+PlaneSide side_of(const PlanarRegion& region, const HeightSurvey& survey,
+                  const std::vector<std::int32_t>& region_of) {
   constexpr double kWalled = 0.1;
   const auto [up, down] = next_surfaces(region, survey);
   const bool open_up = up == kNothing;
@@ -86,7 +102,8 @@ PlaneSide side_of(const PlanarRegion& region, const HeightSurvey& survey) {
   if (open_down && !open_up) return ceiling_if(up < kSlab_m);
   if (!open_up && (up < kSlab_m) != (down < kSlab_m)) return ceiling_if(up < kSlab_m);
   const Walls walls = walls_beside(region, survey);
-  if (!open_up && up >= kSlab_m && walls.share < kWalled) return PlaneSide::kClutter;
+  const bool hovers = !open_up && up >= kSlab_m && walls.share < kWalled;
+  if (hovers && !touches_another(region, survey, region_of)) return PlaneSide::kClutter;
   return ceiling_if(walls.hanging_m2 >= walls.standing_m2);
 }
 

@@ -18,9 +18,8 @@ struct SlopedSurfaces {
   static constexpr std::int32_t kLevel = -2;  ///< a part of a surface that does not slope
 };
 
-/// Sloped floors and ceilings: connected planar surfaces of at least 2 m^2, wider than 0.5 m, with a pitch of
-/// 0.5 … 68 degrees and a range of heights over 8 cm (6 noise). What remains that slopes, as vaults and domes
-/// do, is taken as facets that its points leave by at most 6 cm. Deterministic.
+/// Sloped floors and ceilings: connected planar surfaces of at least 2 m^2 (region_kinds.h), and the facets
+/// of what else slopes (facets.h). Clutter is none (plane_side.h). Deterministic.
 SlopedSurfaces find_planes(const HeightSurvey& survey, double noise_m);
 
 /// Takes what lies on the planes out of the survey: the patches, which would smear the levels, and the sloped

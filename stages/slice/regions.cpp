@@ -33,16 +33,38 @@ VoxelPatch patch_of(const std::vector<SurfaceVoxel>& voxels, const VoxelGraph& g
     }
     return sum;
   };
-  SpacePlane own = fit_plane(voxels[i].moments);
+  SpacePlane own = fit_quickly(voxels[i].moments);
   if (voxels[i].count < kFewest || !flat(own)) {
     if (voxels[i].count >= 4 * kFewest && own.rms_m > most) return {};
-    own = fit_plane(around([](const Moments&) { return true; }));
+    own = fit_quickly(around([](const Moments&) { return true; }));
     if (!flat(own)) return {};
   }
   const Moments sum = around([&](const Moments& m) { return m.square_distance(own) <= 4 * most * most; });
-  VoxelPatch patch{fit_plane(sum), sum.area_m2};
+  VoxelPatch patch{fit_quickly(sum), sum.area_m2};
   if (!flat(patch.plane)) return {};
   return patch;
+}
+
+struct BlockSum {
+  Moments moments;
+  std::int64_t count = 0;
+  int level = -1;  ///< not yet known
+};
+
+/// By regression of heights, a tenth of the cost of a fit.
+bool is_level(const BlockSum& block, double noise_m) {
+  constexpr double kNarrowest_m = 0.15;  // standard deviation in plan
+  constexpr double kLeaning = 0.005;     // 0.3 degrees
+  if (block.count < 2 * kFewest) return false;
+  const Eigen::Matrix3d c = block.moments.covariance();
+  const double determinant = c(0, 0) * c(1, 1) - c(0, 1) * c(0, 1);
+  const double narrowest = kNarrowest_m * kNarrowest_m;
+  if (std::min(c(0, 0), c(1, 1)) < narrowest || determinant < narrowest * narrowest) return false;
+  const double gx = (c(0, 2) * c(1, 1) - c(1, 2) * c(0, 1)) / determinant;
+  const double gy = (c(1, 2) * c(0, 0) - c(0, 2) * c(0, 1)) / determinant;
+  const double off = c(2, 2) - gx * c(0, 2) - gy * c(1, 2);
+  const double most = 1.5 * noise_m + 0.001;
+  return std::hypot(gx, gy) <= kLeaning && off <= most * most;
 }
 
 /// Grows one region from a seed.
@@ -122,11 +144,27 @@ class Growth {
 
 }  // namespace
 
+void level_blocks(const std::vector<SurfaceVoxel>& voxels, double noise_m, std::vector<std::uint8_t>& taken) {
+  const auto block_of = [](const CellKey& key) { return CellKey{key.ix >> 2, key.iy >> 2, key.iz}; };
+  CellTable<BlockSum> table;
+  for (const SurfaceVoxel& voxel : voxels) {
+    BlockSum& block = table.at(block_of(voxel.key));
+    block.moments += voxel.moments;
+    block.count += voxel.count;
+  }
+  for (std::size_t i = 0; i < voxels.size(); ++i) {
+    BlockSum& block = table.at(block_of(voxels[i].key));
+    if (block.level < 0) block.level = is_level(block, noise_m) ? 1 : 0;
+    taken[i] = static_cast<std::uint8_t>(block.level);
+  }
+}
+
 std::vector<VoxelPatch> voxel_patches(const std::vector<SurfaceVoxel>& voxels, const VoxelGraph& graph,
-                                      double noise_m) {
+                                      double noise_m, const std::vector<std::uint8_t>& taken) {
   std::vector<VoxelPatch> patches(voxels.size());
-  tbb::parallel_for(std::size_t{0}, voxels.size(),
-                    [&](std::size_t i) { patches[i] = patch_of(voxels, graph, i, noise_m); });
+  tbb::parallel_for(std::size_t{0}, voxels.size(), [&](std::size_t i) {
+    if (taken[i] == 0) patches[i] = patch_of(voxels, graph, i, noise_m);
+  });
   return patches;
 }
 

@@ -24,15 +24,19 @@ struct RegionRules {
   double max_pitch = 0;
 };
 
+/// Marks in `taken` the voxels of level surfaces in blocks of 4 x 4 voxels: level within 0.3 degrees and flat
+/// within noise.
+void level_blocks(const std::vector<SurfaceVoxel>& voxels, double noise_m, std::vector<std::uint8_t>& taken);
+
 /// The plane of each voxel and the neighbours that lie on it.
 struct VoxelPatch {
   SpacePlane plane;
   double area_m2 = 0;  ///< 0 = there is no clear plane
 };
 
-/// Parallel, deterministic.
+/// Of the voxels that are free in `taken`. Parallel, deterministic.
 std::vector<VoxelPatch> voxel_patches(const std::vector<SurfaceVoxel>& voxels, const VoxelGraph& graph,
-                                      double noise_m);
+                                      double noise_m, const std::vector<std::uint8_t>& taken);
 
 /// Grows regions of at least `min_m2` from the clearest voxels on, over the voxels that are still free in
 /// `taken`, and marks theirs with `taken[i] = 1`. Deterministic.

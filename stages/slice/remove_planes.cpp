@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stages/slice/fixed_point.h"
 #include "stages/slice/planes.h"
 
 namespace roomcut::slice {
@@ -17,8 +16,7 @@ class OnPlanes {
   /// For the middle of a square of that edge, whose heights the slope changes.
   bool contain(const Vec3& p, double edge_m) const {
     const VoxelSize& size = survey_.voxel;
-    const CellKey key{floor_to_int(p.x() / size.plan_m), floor_to_int(p.y() / size.plan_m),
-                      floor_to_int(p.z() / size.height_m)};
+    const CellKey key = size.at(p);
     bool level = false, found = false;
     // A steep plane leaves the middle of a wide square far above or below its voxels.
     const std::int32_t height = edge_m > size.plan_m ? 3 : 1;

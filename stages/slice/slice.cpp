@@ -113,14 +113,16 @@ SliceResult slice_cloud(const CloudHeader& header, const TileSource& tiles, cons
   const LevelRules rules = level_rules(header, params, result.choices);
   Slices& slices = result.slices;
   HeightSurvey survey = survey_heights(header, tiles, rules.raster_m, kHistogramBin, params.by_area);
-  const std::vector<SurfaceCell> all_cells = surface_cells(survey.patches, rules.noise_m);
-  if (params.step_m > 0) {
-    const SlopedSurfaces sloped = find_planes(survey, rules.noise_m);
+  std::vector<SurfaceCell> cells = surface_cells(survey.patches, rules.noise_m);
+  std::vector<SurfaceCell> with_planes;  // where nothing slopes they are the same
+  const SlopedSurfaces sloped = params.step_m > 0 ? find_planes(survey, rules.noise_m) : SlopedSurfaces{};
+  slices.planes = sloped.planes;
+  if (!slices.planes.empty()) {
+    with_planes = std::move(cells);
     remove_planes(sloped, rules.noise_m, survey);
-    slices.planes = sloped.planes;
+    cells = surface_cells(survey.patches, rules.noise_m);
   }
-  std::vector<SurfaceCell> cells =
-      slices.planes.empty() ? all_cells : surface_cells(survey.patches, rules.noise_m);
+  std::vector<SurfaceVoxel>().swap(survey.voxels);
   if (params.drift) measure_drift(cells, rules.raster_m, rules.noise_m);
   slices.frame = header.frame;
   slices.bbox_min = header.bbox_min;
@@ -138,7 +140,7 @@ SliceResult slice_cloud(const CloudHeader& header, const TileSource& tiles, cons
                                       slices.planes, 0.5 * slices.tau_m);
   slices.wall_slices = occupy_wall_slices(tiles, ranges, slices.tau_m, params.upright_only);
   if (params.open_edges) {
-    result.open_edges = open_edges(survey, all_cells, slices.levels);
+    result.open_edges = open_edges(survey, with_planes.empty() ? cells : with_planes, slices.levels);
     for (const OpenEdge& edge : result.open_edges) {
       add_open_edge(edge, slices.tau_m, slices.wall_slices[edge.level - 1]);
     }

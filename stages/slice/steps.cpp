@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "stages/slice/levels.h"
@@ -17,30 +18,41 @@ namespace {
 constexpr double kPasses_m = 0.08;    ///< a plane that covers less of a gap leaves it alone
 constexpr double kClearance_m = 0.1;  ///< of steps from other levels
 
-using Interval = std::pair<double, double>;
+constexpr double kSmall_m2 =
+    10;  ///< less of planes in one stretch of heights is a detail: a stair's underside
 
 Level step_at(double z) {
   return {z, z, z, 0, 0, false, true};
 }
 
-/// What the planes cover between two heights, largest plane first.
-std::vector<Interval> covered(const std::vector<SlopedPlane>& planes, double lo, double hi) {
-  std::vector<Interval> intervals;
+/// A stretch of heights that planes cover, and their area in it.
+struct Stretch {
+  double low = 0, high = 0;
+  double area_m2 = 0;
+};
+
+/// What each of the planes covers between two heights, largest plane first.
+std::vector<Stretch> covered(const std::vector<SlopedPlane>& planes, double lo, double hi) {
+  std::vector<Stretch> stretches;
   for (const SlopedPlane& plane : planes) {
     const auto [low, high] = plane.range();
-    const Interval inside{std::max(low, lo), std::min(high, hi)};
-    if (inside.second - inside.first > kPasses_m) intervals.push_back(inside);
+    const double from = std::max(low, lo);
+    const double to = std::min(high, hi);
+    if (to - from > kPasses_m) stretches.push_back({from, to, plane.area_m2 * (to - from) / (high - low)});
   }
-  return intervals;
+  return stretches;
 }
 
-/// Intervals that overlap, or nearly, as one; ascending.
-std::vector<Interval> joined(std::vector<Interval> intervals, double near) {
-  std::sort(intervals.begin(), intervals.end());
-  std::vector<Interval> unions;
-  for (const Interval& next : intervals) {
-    if (!unions.empty() && next.first < unions.back().second + near) {
-      unions.back().second = std::max(unions.back().second, next.second);
+/// Stretches that overlap, or nearly, as one; ascending.
+std::vector<Stretch> joined(std::vector<Stretch> stretches, double near) {
+  std::sort(stretches.begin(), stretches.end(), [](const Stretch& a, const Stretch& b) {
+    return std::tie(a.low, a.high, a.area_m2) < std::tie(b.low, b.high, b.area_m2);
+  });
+  std::vector<Stretch> unions;
+  for (const Stretch& next : stretches) {
+    if (!unions.empty() && next.low < unions.back().high + near) {
+      unions.back().high = std::max(unions.back().high, next.high);
+      unions.back().area_m2 += next.area_m2;
     } else {
       unions.push_back(next);
     }
@@ -54,19 +66,22 @@ std::vector<double> steps_between(const std::vector<SlopedPlane>& planes, double
   std::vector<double> steps;
   if (hi - lo < 2 * kClearance_m) return steps;
   const auto clear = [&](double z) { return std::clamp(z, lo + kClearance_m, hi - kClearance_m); };
-  const std::vector<Interval> intervals = covered(planes, lo, hi);
-  for (const auto& [low, high] : joined(intervals, 0.5 * step_m)) {
-    const auto n = std::max(1L, std::lround((high - low) / step_m));
+  const std::vector<Stretch> stretches = covered(planes, lo, hi);
+  for (const Stretch& all : joined(stretches, 0.5 * step_m)) {
+    const double apart = all.area_m2 < kSmall_m2 ? 2 * step_m : step_m;
+    const auto n = std::max(1L, std::lround((all.high - all.low) / apart));
     for (long i = 0; i < n; ++i) {
       const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(n);
-      steps.push_back(clear(low + share * (high - low)));
+      steps.push_back(clear(all.low + share * (all.high - all.low)));
     }
   }
-  for (const auto& [low, high] : intervals) {
-    const auto stands_for_it = [low = low, high = high](double z) {
-      return z > low - 0.5 * kClearance_m && z < high + 0.5 * kClearance_m;
+  for (const Stretch& own : stretches) {
+    const auto stands_for_it = [&own](double z) {
+      return z > own.low - 0.5 * kClearance_m && z < own.high + 0.5 * kClearance_m;
     };
-    if (std::none_of(steps.begin(), steps.end(), stands_for_it)) steps.push_back(clear(0.5 * (low + high)));
+    if (std::none_of(steps.begin(), steps.end(), stands_for_it)) {
+      steps.push_back(clear(0.5 * (own.low + own.high)));
+    }
   }
   return steps;
 }

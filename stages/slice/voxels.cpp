@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stages/slice/fixed_point.h"
-
 namespace roomcut::slice {
 namespace {
 
@@ -38,7 +36,7 @@ Moments to_moments(const CellEntry<VoxelSum>& entry, const VoxelSize& size) {
 
 VoxelSize voxel_size(double raster_m) {
   const double plan = raster_m * std::max(1.0, std::round(kEdge_m / raster_m));
-  return {plan, 0.5 * plan};
+  return {plan, 0.5 * plan, 1 / plan, 2 / plan};
 }
 
 VoxelSum& VoxelSum::operator+=(const VoxelSum& other) {
@@ -57,12 +55,22 @@ VoxelSum& VoxelSum::operator+=(const VoxelSum& other) {
 }
 
 void add_to_voxel(CellTable<VoxelSum>& table, const VoxelSize& size, const Vec3& point, double area_m2) {
-  const CellKey key{floor_to_int(point.x() / size.plan_m), floor_to_int(point.y() / size.plan_m),
-                    floor_to_int(point.z() / size.height_m)};
-  const std::int64_t x = to_units(std::max(0.0, point.x() - key.ix * size.plan_m), kLengthUnit);
-  const std::int64_t y = to_units(std::max(0.0, point.y() - key.iy * size.plan_m), kLengthUnit);
-  const std::int64_t z = to_units(std::max(0.0, point.z() - key.iz * size.height_m), kLengthUnit);
-  table.at(key) += {1, to_units(area_m2, kAreaUnit), x, y, z, x * x, x * y, x * z, y * y, y * z, z * z};
+  const CellKey key = size.at(point);
+  const std::int64_t x = to_units(point.x() - key.ix * size.plan_m, kLengthUnit);
+  const std::int64_t y = to_units(point.y() - key.iy * size.plan_m, kLengthUnit);
+  const std::int64_t z = to_units(point.z() - key.iz * size.height_m, kLengthUnit);
+  VoxelSum& sum = table.at(key);
+  ++sum.count;
+  sum.area += to_units(area_m2, kAreaUnit);
+  sum.x += x;
+  sum.y += y;
+  sum.z += z;
+  sum.xx += x * x;
+  sum.xy += x * y;
+  sum.xz += x * z;
+  sum.yy += y * y;
+  sum.yz += y * z;
+  sum.zz += z * z;
 }
 
 std::vector<SurfaceVoxel> to_voxels(const std::vector<CellEntry<VoxelSum>>& entries, const VoxelSize& size) {
@@ -75,18 +83,25 @@ std::vector<SurfaceVoxel> to_voxels(const std::vector<CellEntry<VoxelSum>>& entr
   return voxels;
 }
 
-VoxelGraph voxel_graph(const std::vector<SurfaceVoxel>& voxels) {
-  std::vector<std::vector<std::uint32_t>> rows(voxels.size());
-  tbb::parallel_for(std::size_t{0}, voxels.size(), [&](std::size_t i) {
-    for_each_near(voxels, voxels[i].key, 1, 1, [&](std::size_t j) {
-      if (j != i) rows[i].push_back(static_cast<std::uint32_t>(j));
-    });
+VoxelGraph voxel_graph(const std::vector<SurfaceVoxel>& voxels, const std::vector<std::uint8_t>& without) {
+  constexpr std::size_t kPart = 4096;
+  std::vector<VoxelGraph> parts((voxels.size() + kPart - 1) / kPart);
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t p) {
+    for (std::size_t i = p * kPart; i < std::min((p + 1) * kPart, voxels.size()); ++i) {
+      parts[p].first.push_back(static_cast<std::uint32_t>(parts[p].neighbours.size()));
+      if (without[i] != 0) continue;
+      for_each_near(voxels, voxels[i].key, 1, 1, [&](std::size_t j) {
+        if (j != i) parts[p].neighbours.push_back(static_cast<std::uint32_t>(j));
+      });
+    }
   });
   VoxelGraph graph;
   graph.first.reserve(voxels.size() + 1);
-  for (const auto& row : rows) {
-    graph.first.push_back(static_cast<std::uint32_t>(graph.neighbours.size()));
-    graph.neighbours.insert(graph.neighbours.end(), row.begin(), row.end());
+  for (VoxelGraph& part : parts) {
+    const auto before = static_cast<std::uint32_t>(graph.neighbours.size());
+    for (const std::uint32_t first : part.first) graph.first.push_back(before + first);
+    graph.neighbours.insert(graph.neighbours.end(), part.neighbours.begin(), part.neighbours.end());
+    part = {};
   }
   graph.first.push_back(static_cast<std::uint32_t>(graph.neighbours.size()));
   return graph;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "stages/slice/cell_table.h"
+#include "stages/slice/fixed_point.h"
 #include "stages/slice/moments.h"
 
 namespace roomcut::slice {
@@ -23,6 +24,10 @@ struct SurfaceVoxel {
 /// slab fall into different ones.
 struct VoxelSize {
   double plan_m = 0, height_m = 0;
+  double per_plan = 0, per_height = 0;  ///< voxels per metre
+  CellKey at(const Vec3& p) const {
+    return {floor_to_int(p.x() * per_plan), floor_to_int(p.y() * per_plan), floor_to_int(p.z() * per_height)};
+  }
 };
 VoxelSize voxel_size(double raster_m);
 
@@ -61,7 +66,7 @@ struct VoxelGraph {
   std::vector<std::uint32_t> first, neighbours;
 };
 
-/// `voxels` must be sorted by column. Parallel, deterministic.
-VoxelGraph voxel_graph(const std::vector<SurfaceVoxel>& voxels);
+/// `voxels` must be sorted by column; those marked in `without` have none. Parallel, deterministic.
+VoxelGraph voxel_graph(const std::vector<SurfaceVoxel>& voxels, const std::vector<std::uint8_t>& without);
 
 }  // namespace roomcut::slice

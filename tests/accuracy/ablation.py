@@ -67,7 +67,7 @@ def score(build, work, truth, truth_json):
     scene_run.run([os.path.join(build, "bin", "evaluate"), "-q", "--threads", "1", "--work", work, "--truth", truth, "--truth-json", truth_json,
                    "--cloud", os.path.join(work, "10_ingest", "cloud.h5"), *COARSE])
     scores = scene_run.read_json(os.path.join(work, "evaluate", "scores.json"))
-    row = scene_run.row_of({**scores, "explanation": None}, scene_run.read_json(truth_json), [])
+    row = scene_run.row_of({**scores, "explanation": None}, scene_run.read_json(truth_json), 0.0)
     return {key: row[key] for key in ("iou", "rooms", "missed", "merged")}
 
 

@@ -28,7 +28,7 @@ NOWHERE = "/nonexistent"
 def row(name, group="g", **figures):
     given = {"iou": 1.0, "recall": 1.0, "precision": 1.0, "rooms": 4, "found": 4, "missed": 0, "missed_scanned": 0, "merged": 0,
              "seen": 1.0, "denied": None, "invented": 0.0, "unentered_m3": 0.0, "unentered_found": 0, "unentered_unknown": 0, "unentered_denied": 0,
-             "bound": 1.0, "lost": {"labels": 0.1}, "extra": {"labels": 0.0}, "thin_kept": 1.0, "walls": 1.0, "walls_loose": 1.0, "horizontals": 1.0, "hausdorff_pct": 0.1, "valid": True, "cpu_s": 1.0}
+             "bound": 1.0, "lost": {"labels": 0.1}, "extra": {"labels": 0.0}, "thin_kept": 1.0, "walls": 1.0, "walls_loose": 1.0, "horizontals": 1.0, "horizontals_fine": 1.0, "hausdorff_pct": 0.1, "valid": True, "cpu_s": 1.0}
     return {"name": name, "group": group, "kind": "office", **given, **figures}
 
 
@@ -56,6 +56,7 @@ class Choice(unittest.TestCase):
         self.assertEqual(self.names("uniform_house_1"), ["uniform_house_1"])
         self.assertEqual(self.names("random_thin_101*"), [f"random_thin_101_mu{mu}" for mu in scenes.RANDOM_MU_M])
         self.assertEqual(len(self.names("random")), 900)
+        self.assertEqual(len(self.names("random_elements")), 900)
         self.assertEqual(self.names("noise_*_curved_1, uniform_house_3"), ["uniform_house_3", "noise_1cm_curved_1", "noise_2cm_curved_1"])
 
     def test_a_word_that_names_nothing_is_an_error(self):
@@ -106,6 +107,31 @@ class Means(unittest.TestCase):
         self.assertAlmostEqual(group["denied"], 0.05)
         self.assertEqual(group["unentered_denied"], 1)
         self.assertIsNone(table.group_rows([row("c")])[0]["denied"])
+
+
+class Elements(unittest.TestCase):
+    """Slopes, columns and niches beside the main figures."""
+
+    PLAIN = {"volume_error": 0.001, "slopes_m2": 0.0, "angle_deg": None, "angle_p95_deg": None, "slopes_close": None, "columns": 0, "columns_found": 0,
+             "columns_false": 0, "floor_m2": 500.0, "niches": 0, "niches_m2": 0.0, "niches_near_m2": 0.0, "heights": 8, "heights_1mm": 6, "height_worst_m": 0.0125,
+             "columns_25cm": 0, "columns_25cm_found": 0, "niches_10cm_m2": 0.0, "niches_10cm_near_m2": 0.0}
+
+    def test_a_group_weighs_slopes_by_their_area_and_names_its_worst_volume(self):
+        members = [row("a", elements={**self.PLAIN, "slopes_m2": 30.0, "angle_deg": 0.1, "angle_p95_deg": 1.0, "slopes_close": 1.0, "volume_error": -0.02}),
+                   row("b", elements={**self.PLAIN, "slopes_m2": 10.0, "angle_deg": 0.5, "angle_p95_deg": 1.0, "slopes_close": 0.0}), row("c", elements=self.PLAIN)]
+        group, = table.group_rows(members)
+        self.assertAlmostEqual(group["elements"]["angle_deg"], 0.2)
+        self.assertAlmostEqual(group["elements"]["slopes_close"], 0.75)
+        self.assertEqual(group["elements"]["volume_error"], -0.02)
+
+    def test_the_table_has_their_lines_only_where_there_are_any(self):
+        found = row("a", elements={**self.PLAIN, "columns": 4, "columns_found": 3, "columns_false": 1, "columns_25cm": 2, "columns_25cm_found": 2, "niches_10cm_m2": 2.0, "niches_10cm_near_m2": 1.8, "niches": 2, "niches_m2": 4.0, "niches_near_m2": 3.0})
+        rows = [found, row("plain", elements=self.PLAIN)]
+        text = table.table(rows, table.group_rows(rows)).split("elements ")[1]
+        self.assertNotIn("plain", text)
+        line, = [line for line in text.splitlines() if line.startswith("a ")]
+        self.assertEqual(line.split(), ["a", "0.100", "–", "–", "–", "3/4", "100.0", "1", "2.00", "2", "75.0", "90.0", "75.0", "12.5"])
+        self.assertNotIn("elements", table.table(rows[1:], table.group_rows(rows[1:])))
 
 
 class Moved(unittest.TestCase):

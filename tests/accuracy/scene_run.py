@@ -11,6 +11,7 @@ from pipeline_table import RUNS  # noqa: E402
 
 # Stages whose processor time counts: all that the model needs.
 STAGES = tuple(run.name for run in RUNS if run.name != "report")
+TOLERANCE_M = 1e-6
 VOLUME_TOLERANCE = 1e-6  # relative: rounding of coordinates, far below any cell
 OUTER = ("MAKEFLAGS", "MFLAGS", "MAKELEVEL", "SCAN", "WORK", "CONFIG", "JOBS", "UP", "UNIT", "STATIONS", "TRUTH", "QUIET")
 
@@ -126,11 +127,12 @@ def evaluate(build, scene, work, truth, truth_json):
     scores, truth_cells, stamp = (os.path.join(work, "evaluate", name) for name in ("scores.json", "truth_cells.h5", "scores.stamp"))
     cells = [os.path.join(work, "90_final", name + ".h5") for name in ("cells", "labels", "data_terms")]
     cloud = os.path.join(work, "10_ingest", "cloud.h5")
-    key = "\n".join(map(identity, (program, model, truth, truth_json, cloud, *cells)))
+    surfaces = os.path.join(work, "92_fit_surfaces", "surfaces.h5")
+    key = "\n".join(map(identity, (program, model, truth, truth_json, cloud, surfaces, *cells)))
     if not is_fresh(stamp, key, [scores, truth_cells]):
         coarse = ["--set", "sample_spacing_m=0.1", "--set", "column_spacing_m=0.1"] if "mu_m" in scene else []
         run([program, "-q", "--threads", "1", "--work", work, "--truth", truth, "--truth-json", truth_json, *coarse,
-             "--cells", cells[0], "--labels", cells[1], "--terms", cells[2], "--cloud", cloud, "--cells-out", truth_cells])
+             "--cells", cells[0], "--labels", cells[1], "--terms", cells[2], "--surfaces", surfaces, "--cloud", cloud, "--cells-out", truth_cells])
         write_if_changed(stamp, key)
     return read_json(scores)
 
@@ -144,7 +146,7 @@ def share(part, whole):
     return part / whole if whole else None
 
 
-def row_of(scores, truth, openings):
+def row_of(scores, truth, cells_m3):
     """What the table shows of one scene; a model that is not closed has no volume and found no room."""
     volume, rooms, thin, mesh = (scores[name] or {} for name in ("volume", "rooms", "thin", "mesh"))
     scanned = [room for room in truth["rooms"] if room.get("scanned", True)]
@@ -158,18 +160,38 @@ def row_of(scores, truth, openings):
             "unentered_m3": unentered["volume_m3"], **{f"unentered_{answer}": unentered[answer] for answer in ("found", "unknown", "denied")},
             "merged": rooms.get("merged", 0), "thin_kept": thin.get("walls_kept"), "walls": scores["walls_within_1deg_2cm"],
             "walls_loose": scores["walls_within_1_5deg_4cm"],
-            "horizontals": scores["horizontals_within_1deg_2cm"],
-            "hausdorff_pct": scores["distance"]["symmetric"]["hausdorff_pct"], **explained(scores, mesh, volume, openings)}
+            "horizontals": scores["horizontals_within_1deg_2cm"], "horizontals_fine": scores["horizontals_within_1deg_5mm"],
+            "elements": elements_of(scores),
+            "hausdorff_pct": scores["distance"]["symmetric"]["hausdorff_pct"], **explained(scores, mesh, volume, cells_m3)}
 
 
-def explained(scores, mesh, volume, openings):
+def elements_of(scores):
+    """Of slopes, columns and niches; counts and areas, so that a group's shares are those of all its buildings together."""
+    volume, slopes, columns, niches = scores["volume"] or {}, scores["slopes"], scores["columns"] or {}, scores["niches"]
+    thick = [column for column in columns.get("list", []) if column["size_m"] >= 0.25 - TOLERANCE_M]
+    deep = [niche for niche in niches["list"] if niche["depth_m"] >= 0.10 - TOLERANCE_M]
+    return {"volume_error": share(volume.get("model_m3", 0.0) - volume["truth_m3"], volume["truth_m3"]) if volume else None,
+            "slopes_m2": slopes["area_m2"], "angle_deg": slopes["angle_median_deg"], "angle_p95_deg": slopes["angle_p95_deg"],
+            "slopes_close": slopes["within_1deg_2cm"], "columns": columns.get("truth", 0), "columns_found": columns.get("found", 0),
+            "columns_false": columns.get("false", 0), "floor_m2": columns.get("floor_m2", 0.0), "niches": niches["truth"],
+            "columns_25cm": len(thick), "columns_25cm_found": sum(column["found"] for column in thick),
+            "niches_10cm_m2": sum(niche["area_m2"] for niche in deep), "niches_10cm_near_m2": sum(niche["area_m2"] * (niche["within_2cm"] or 0.0) for niche in deep),
+            **heights_of((scores["rooms"] or {}).get("list", [])), "niches_m2": niches["area_m2"], "niches_near_m2": niches["area_m2"] * (niches["within_2cm"] or 0.0)}
+
+
+def heights_of(rooms):
+    """Of the floors and ceilings of all rooms: how many, how many within 1 mm, and by how much the worst is off."""
+    off = [room[end] for room in rooms for end in ("floor_off_m", "ceiling_off_m") if room[end] is not None]
+    return {"heights": len(off), "heights_1mm": sum(abs(value) <= 0.001 for value in off), "height_worst_m": max(map(abs, off), default=None)}
+
+
+def explained(scores, mesh, volume, cells_m3):
     """The bound of the cells, the causes of what is wrong as shares of the truth, and whether the mesh encloses just its empty
-    cells and the openings that were cut."""
+    cells, which have `cells_m3`."""
     explanation = scores["explanation"]
     if not explanation:
         return {"bound": None, "lost": None, "extra": None, "invented": None, "valid": False}
-    empty = explanation["empty_m3"] + sum(opening["volume_m3"] for opening in openings)
-    equal = abs(mesh["volume_m3"] - empty) <= VOLUME_TOLERANCE * empty
+    equal = abs(mesh["volume_m3"] - cells_m3) <= VOLUME_TOLERANCE * cells_m3
     shares = {kind: {cause: m3 / volume["truth_m3"] for cause, m3 in explanation[kind + "_m3"].items()} for kind in ("lost", "extra")}
     return {"bound": explanation["bound_iou"], **shares, "invented": explanation["invented_m3"] / volume["truth_m3"], "valid": mesh["valid"] and equal}
 
@@ -192,7 +214,7 @@ def run_scene(source, build, scene, root, preset="", scans=""):
         scan, truth, truth_json = make_scan(build, scene, scan_folder)
         make_model(source, build, work, scan, stations_file(scene, truth_json, work), config_file(scene, work, preset))
         summary = read_json(os.path.join(work, "summary.json"))
-        row.update(row_of(evaluate(build, scene, work, truth, truth_json), read_json(truth_json), summary["openings"]))
+        row.update(row_of(evaluate(build, scene, work, truth, truth_json), read_json(truth_json), summary["mesh"]["cells_m3"]))
         row["model"] = {"rooms": len(summary["rooms"]), "openings": len(summary["openings"]), "volume_m3": summary["totals"]["volume_m3"]}
         row["warnings"] = [text for name in STAGES for text in read_json(os.path.join(work, "logs", name + ".json"))["warnings"]]
         row["cpu_s"] = round(cpu_seconds(work), 3)

@@ -3,7 +3,7 @@
 
 A scene is a dict with `name` (unique, also the name of its folder), `group`, `kind` (family or building), and either `scene`, what
 `synthesize` makes it from (schemas/scene.md), with `points_per_m2` instead of its number of points, or `folder`, where a scan and its truth lie; `stations`: with the scanner positions of the truth;
-`mu_m`: a graphcut.mu_m of its own, in the work folder `work` that it shares with its building's other values; `asked`: one that runs only when named.
+`mu_m`: a graphcut.mu_m of its own, in the work folder `work` that it shares with its building's other values; `asked`: the word that names it with others, it runs only when named.
 A case has `scan`, and either `truth`, a mesh, or `scene`, of which only the truth is taken. A moved scene has `base`, the scene that is moved, and `pose`.
 """
 import fnmatch
@@ -18,6 +18,8 @@ SEEDS = range(1, 6)
 POINTS = 600000
 FURNITURE_PER_M2 = 0.12
 
+# All that `synthesize` can add to a random building.
+ELEMENTS = ["heights", "arcs", "roof", "ramps", "beams", "columns", "niches"]
 # What differs between the groups of synthetic scenes; doors and furniture unless said.
 GROUPS = {
     "uniform": {"noise_m": 0.005},
@@ -28,15 +30,19 @@ GROUPS = {
     "handheld": {"noise_m": 0.005, "handheld": {"warp_m": 0.02, "correlation_m": 1, "rounding_m": 0.05}},
     "closed": {"noise_m": 0.005, "clutter_per_m2": 0, "random": {"doors": False, "shafts": False}},
     "roofs": {"noise_m": 0.005, "random": {"elements": ["roof", "ramps"]}},
+    "round": {"noise_m": 0.005, "random": {"elements": ["arcs"]}},
     "heights": {"noise_m": 0.005, "random": {"elements": ["heights"]}},
     "columns": {"noise_m": 0.005, "random": {"elements": ["columns"]}},
     "niches": {"noise_m": 0.005, "random": {"elements": ["niches"]}},
+    "all_elements": {"noise_m": 0.005, "holes": 0.05, "outliers": 0.01, "sampling": {"kind": "tripod"}, "random": {"elements": ELEMENTS}},
 }
 # Groups of some families only, and as dense as the scanners that they stand for, whatever the building's size [points per m^2].
-FAMILIES_OF = {"handheld": ("office", "oblique", "house"), "roofs": ("house", "oblique"), "heights": ("office",), "columns": ("office",), "niches": ("office",)}
+FAMILIES_OF = {"handheld": ("office", "oblique", "house"), "roofs": ("house", "oblique"), "round": ("office",), "heights": ("office",), "columns": ("office",), "niches": ("office",), "all_elements": ("house",)}
 DENSITIES = {"handheld": 300}
 # Buildings that try the mesh, not the accuracy: small scans, half of them from tripods, at three levels of detail; only when asked for.
 RANDOM_SEEDS = range(101, 151)
+# The same with slopes, arcs, columns and all else that a building may have, by `random_elements`.
+ELEMENT_SEEDS = range(201, 251)
 RANDOM_MU_M = (0.05, 0.3, 1.0)
 RANDOM_POINTS = 150000
 # One room under a monopitch roof of every pitch; only when asked for, by `slopes` or by name.
@@ -68,19 +74,21 @@ def slope(degrees):
     azimuth = (11 * degrees - 90) % 360
     scene = {"name": f"slopes_{degrees:02}", "seed": degrees, "noise_m": 0.005, "sampling": {"points": 100000}, "storeys": [{"floor": 0, "ceiling": 20, "rooms": [
         {"name": "a", "polygon": polygon, "roof": {"kind": "monopitch", "pitch_deg": degrees, "azimuth_deg": azimuth, "eaves": 1.2}}]}]}
-    return {"name": scene["name"], "group": "slopes", "kind": "slope", "scene": scene, "asked": True}
+    return {"name": scene["name"], "group": "slopes", "kind": "slope", "scene": scene, "asked": "slopes"}
 
 
-def random_building(family, seed):
+def random_building(family, seed, word="random", elements=()):
     """One building at every mu, from small to large."""
     rough = seed % 2 == 1
-    scene = {"name": f"random_{family}_{seed}", "seed": seed, "noise_m": 0.002 * (1 + seed % 10), "clutter_per_m2": 0.1 * (seed % 3),
+    scene = {"name": f"{word}_{family}_{seed}", "seed": seed, "noise_m": 0.002 * (1 + seed % 10), "clutter_per_m2": 0.1 * (seed % 3),
              "sampling": {"kind": "tripod" if rough else "uniform", "points": RANDOM_POINTS}, "random": {"family": family, "seed": seed}}
+    if elements:
+        scene["random"]["elements"] = elements
     if rough:
         scene.update({"holes": 0.1, "outliers": 0.01})
         scene["random"]["unscanned"] = 0.1
-    return [{"name": f"{scene['name']}_mu{mu}", "group": f"random_mu{mu}", "kind": family, "scene": scene, "work": scene["name"],
-             "mu_m": mu, "asked": True} for mu in RANDOM_MU_M]
+    return [{"name": f"{scene['name']}_mu{mu}", "group": f"{word}_mu{mu}", "kind": family, "scene": scene, "work": scene["name"],
+             "mu_m": mu, "asked": word} for mu in RANDOM_MU_M]
 
 
 def virtual(folder):
@@ -129,12 +137,14 @@ def all_scenes(data):
     """Every scene, the longest first; `data` is the folder of the data to judge by, with virtual/ and cases/."""
     buildings = os.path.join(data, "virtual")
     usual = virtual(buildings) + moved_scenes(buildings) + cases(os.path.join(data, "cases")) + [synthetic(group, family, seed) for group in GROUPS for family in FAMILIES_OF.get(group, FAMILIES) for seed in SEEDS]
-    return usual + [slope(degrees) for degrees in SLOPES_DEG] + [scene for seed in RANDOM_SEEDS for family in FAMILIES for scene in random_building(family, seed)]
+    plain = [scene for seed in RANDOM_SEEDS for family in FAMILIES for scene in random_building(family, seed)]
+    with_elements = [scene for seed in ELEMENT_SEEDS for family in FAMILIES for scene in random_building(family, seed, "random_elements", ELEMENTS)]
+    return usual + [slope(degrees) for degrees in SLOPES_DEG] + plain + with_elements
 
 
 def choose(scenes, only):
     """The scenes that `only` names: groups, families, buildings, scenes, or patterns of scene names, separated by spaces or commas;
-    without any word all but those that are `asked` for: the random buildings, which `random` names, and the `slopes`.
+    without any word all but those that are `asked` for: the random buildings, which `random` and `random_elements` name, and the `slopes`.
 
     Raises ValueError when a word names none.
     """
@@ -144,8 +154,8 @@ def choose(scenes, only):
         return usual
     chosen = set()
     for word in words:
-        hits = [s["name"] for s in scenes if "mu_m" in s and word == "random" or fnmatch.fnmatchcase(s["name"], word)]
-        hits += [s["name"] for s in scenes if "mu_m" not in s and word in (s["group"], s["kind"])]
+        hits = [s["name"] for s in scenes if word == s.get("asked") or fnmatch.fnmatchcase(s["name"], word)]
+        hits += [s["name"] for s in usual if word in (s["group"], s["kind"])]
         if not hits:
             groups = " ".join(dict.fromkeys(s["group"] for s in scenes))
             raise ValueError(f"no scene is called {word}; groups: {groups}; families: {' '.join(FAMILIES)}")

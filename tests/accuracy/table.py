@@ -6,10 +6,10 @@ import itertools
 # key, head, width, decimals; counts are summed over a group, shares averaged.
 SHARES = (("iou", "IoU", 7, 4), ("bound", "bound", 7, 4), ("seen", "seen", 7, 4), ("recall", "recall", 7, 4), ("precision", "precis.", 7, 4))
 COUNTS = ("rooms", "found", "merged", "missed", "missed_scanned", "unentered_found", "unentered_unknown", "unentered_denied")
-MORE_SHARES = (("denied", "denied", 6, 3), ("invented", "invent.", 7, 4), ("thin_kept", "thin", 6, 3), ("walls", "walls", 6, 3), ("walls_loose", "4 cm", 6, 3), ("horizontals", "horiz.", 6, 3), ("hausdorff_pct", "Hausd.%", 8, 3))
+MORE_SHARES = (("denied", "denied", 6, 3), ("invented", "invent.", 7, 4), ("thin_kept", "thin", 6, 3), ("walls", "walls", 6, 3), ("walls_loose", "4 cm", 6, 3), ("horizontals", "horiz.", 6, 3), ("horizontals_fine", "5 mm", 6, 3), ("hausdorff_pct", "Hausd.%", 8, 3))
 AVERAGED = [column[0] for column in SHARES + MORE_SHARES] + ["cpu_s"]
 # A scene that gave no model counts as this, so that it cannot vanish from the means.
-OF_FAILED = {"iou": 0.0, "seen": 0.0, "bound": None, "denied": None, "invented": None, "recall": 0.0, "precision": 0.0, "thin_kept": 0.0, "walls": 0.0, "walls_loose": 0.0, "horizontals": 0.0}
+OF_FAILED = {"iou": 0.0, "seen": 0.0, "bound": None, "denied": None, "invented": None, "recall": 0.0, "precision": 0.0, "thin_kept": 0.0, "walls": 0.0, "walls_loose": 0.0, "horizontals": 0.0, "horizontals_fine": 0.0}
 
 
 def mean(values):
@@ -30,6 +30,7 @@ def group_rows(rows):
         if entered:  # by volume, not by scene: a share of little says little
             volume = summary["unentered_m3"] = sum(row["unentered_m3"] for row in entered)
             summary["denied"] = sum(row["denied"] * row["unentered_m3"] for row in entered) / volume
+        summary["elements"] = group_elements([row["elements"] for row in members if "elements" in row])
         summary["spread"] = spread(members) if group == "moved" else None
         summary["valid"] = sum(bool(row.get("valid")) for row in members)
         summary["worst_iou"] = min(row["iou"] for row in complete)
@@ -38,6 +39,55 @@ def group_rows(rows):
             summary[kind] = {cause: mean([shares[cause] for shares in known]) for cause in known[0]} if known else None
         groups.append(summary)
     return groups
+
+
+# Of the elements: sums over a group; means; the rest are means weighted by the slopes' area.
+ELEMENT_SUMS = ("slopes_m2", "columns", "columns_found", "columns_false", "floor_m2", "niches", "niches_m2", "niches_near_m2", "heights", "heights_1mm",
+                "columns_25cm", "columns_25cm_found", "niches_10cm_m2", "niches_10cm_near_m2")
+GROUPS_OF_ELEMENTS = ("heights", "round")  # have figures there, but none of those things
+OF_SLOPES = ("angle_deg", "angle_p95_deg", "slopes_close")
+
+
+def group_elements(members):
+    """The elements of a group: counts and areas summed, angles weighted by area, the volume error of the worst scene."""
+    if not members:
+        return None
+    out = {key: sum(member[key] for member in members) for key in ELEMENT_SUMS}
+    sloped = [member for member in members if member["slopes_m2"] > 0]
+    for key in OF_SLOPES:
+        out[key] = sum(member[key] * member["slopes_m2"] for member in sloped) / out["slopes_m2"] if sloped else None
+    out["height_worst_m"] = max((member["height_worst_m"] for member in members if member["height_worst_m"] is not None), default=None)
+    out["volume_error"] = max((member["volume_error"] for member in members if member["volume_error"] is not None), key=abs, default=None)
+    return out
+
+
+def has_elements(row):
+    elements, group = row.get("elements"), row.get("group", row["name"])
+    return bool(elements) and (group in GROUPS_OF_ELEMENTS or any(elements[key] > 0 for key in ("slopes_m2", "columns", "niches")))
+
+
+def element_line(row, width):
+    values = row["elements"]
+    percent = lambda part, whole: number(100 * part / whole if whole else None, 7, 1)  # noqa: E731
+    return " ".join([f"{row['name']:<{width}}", number(None if values["volume_error"] is None else 100 * values["volume_error"], 8, 3),
+                     number(values["angle_deg"], 7, 2), number(values["angle_p95_deg"], 7, 2),
+                     number(None if values["slopes_close"] is None else 100 * values["slopes_close"], 7, 1),
+                     f"{values['columns_found']:>5}/{values['columns']:<5}", percent(values["columns_25cm_found"], values["columns_25cm"]), f"{values['columns_false']:>5}",
+                     number(1000 * values["columns_false"] / values["floor_m2"] if values["floor_m2"] else None, 7, 2),
+                     f"{values['niches']:>6}", percent(values["niches_near_m2"], values["niches_m2"]), percent(values["niches_10cm_near_m2"], values["niches_10cm_m2"]),
+                     percent(values["heights_1mm"], values["heights"]),
+                     number(None if values["height_worst_m"] is None else 1000 * values["height_worst_m"], 8, 1)])
+
+
+def element_lines(rows, groups):
+    """Slopes, columns and niches: what the first table does not show of them. Of a group the worst volume, and the rest of all together."""
+    some = [row for row in rows if has_elements(row) and shown(row)]
+    if not some:
+        return []
+    width = max(len(row["name"]) for row in some)
+    head_line = " ".join([f"{'elements':<{width}}", f"{'volume %':>8}", f"{'angle°':>7}", f"{'95 %':>7}", f"{'close%':>7}", f"{'columns':<11}", f"{'>25cm %':>7}", f"{'false':>5}",
+                          f"{'/1000m²':>7}", f"{'niches':>6}", f"{'2 cm %':>7}", f"{'>10cm %':>7}", f"{'1 mm %':>7}", f"{'worst mm':>8}"])
+    return ["", head_line, *(element_line(row, width) for row in some), "", *(element_line(group, width) for group in groups if has_elements(group))]
 
 
 def number(value, width, decimals):
@@ -118,7 +168,7 @@ def table(rows, groups):
         lines += ["", "wrong because of (lost + extra, % of the truth's volume)",
                   " ".join([" " * width] + [f"{name:>16}" for name in names])]
         lines += [" ".join([f"{group['name']:<{width}}"] + [cause_cell(group, name) for name in names]) for group in causes]
-    return "\n".join(lines + spread_lines(rows) + warning_lines(rows))
+    return "\n".join(lines + element_lines(rows, groups) + spread_lines(rows) + warning_lines(rows))
 
 
 def cause_cell(group, name):

@@ -74,7 +74,7 @@ MADE = {
                          b"property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"],
     "stamp": lambda: [b"0" * 64 + b" 1 2 model.ply\n"],
 }
-for _name in ("cloud", "slices", "hough", "cells", "weights", "data_terms", "labels", "rooms"):
+for _name in ("cloud", "slices", "hough", "cells", "weights", "data_terms", "labels", "surfaces", "rooms"):
     MADE[_name] = lambda: [b"# a sound file\n", b"number /frame nothing 1\n"]
 
 

@@ -24,7 +24,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 import base_run  # noqa: E402
 
 LENGTH = {"scan_ply": 20000, "scan_text": 20000, "scan_pcd": 20000, "scan_ptx": 20000, "hdf5": 30000}  # longest input; else LONGEST
-EDITS = ("cloud", "slices", "hough", "cells", "weights", "data_terms", "labels", "rooms")
+EDITS = ("cloud", "slices", "hough", "cells", "weights", "data_terms", "labels", "surfaces", "rooms")
 LONGEST = 12000
 POINTS = 3000  # of the sound run: a target reads a whole artefact at every turn
 

@@ -5,6 +5,7 @@
 
 #include "common/artefact/h5.h"
 #include "common/cells/cells_io.h"
+#include "common/cells/surfaces_io.h"
 #include "common/cloud/cloud_io.h"
 #include "common/slices/slices_io.h"
 #include "stages/detect_lines/detect_lines.h"
@@ -22,7 +23,7 @@ constexpr const char *kCloud = "10_ingest/cloud.h5", *kSlices = "20_slice/slices
                      *kHough = "30_detect_lines/hough.h5", *kCells = "50_partition/cells.h5",
                      *kWeights = "55_weigh_faces/weights.h5", *kTerms = "60_raycast/data_terms.h5",
                      *kLabels = "70_graphcut/labels.h5", *kFinalCells = "90_final/cells.h5",
-                     *kRooms = "rooms.h5";
+                     *kSurfaces = "92_fit_surfaces/surfaces.h5", *kRooms = "rooms.h5";
 
 const CellsFile& seed_cells() {
   static const CellsFile kFile = read_cells(seeds() / kCells);
@@ -73,10 +74,19 @@ void labels(std::string_view edits) {
   read_labels(file.path(), seed_cells());
 }
 
+const CellsFile& seed_final_cells() {
+  static const CellsFile kFile = read_cells(seeds() / kFinalCells);
+  return kFile;
+}
+
+void surfaces(std::string_view edits) {
+  const PrivateFile file(edited_artefact(kSurfaces, edits), ".h5");
+  read_surfaces(file.path(), seed_final_cells());
+}
+
 void rooms(std::string_view edits) {
-  static const CellsFile kFinal = read_cells(seeds() / kFinalCells);
   const PrivateFile file(edited_artefact(kRooms, edits), ".h5");
-  read_rooms(file.path(), kFinal);
+  read_rooms(file.path(), seed_final_cells());
 }
 
 /// The bytes of the container as they come: every artefact is read through one parser. What follows is what
@@ -99,6 +109,7 @@ constexpr std::array kTargets{Target{"hdf5", Mutation::kBytes, hdf5, kLabels},
                               Target{"weights", Mutation::kHdf5Edits, weights, kWeights},
                               Target{"data_terms", Mutation::kHdf5Edits, data_terms, kTerms},
                               Target{"labels", Mutation::kHdf5Edits, labels, kLabels},
+                              Target{"surfaces", Mutation::kHdf5Edits, surfaces, kSurfaces},
                               Target{"rooms", Mutation::kHdf5Edits, rooms, kRooms}};
 
 }  // namespace

@@ -181,6 +181,6 @@ def all_kinds():
     artefacts = {
         "cloud": p.CLOUD, "slices": p.SLICES, "hough": p.HOUGH, "lines_30": p.LINES_30, "lines_40": p.LINES_40, "lines_80": p.LINES_80,
         "cells": p.CELLS, "final_cells": p.FCELLS, "weights": p.WEIGHTS, "final_weights": p.FWEIGHTS, "data_terms": p.TERMS,
-        "final_data_terms": p.FTERMS, "labels": p.LABELS, "final_labels": p.FLABELS, "rooms": p.ROOMS, "openings": p.OPENINGS, "summary": p.SUMMARY,
+        "final_data_terms": p.FTERMS, "labels": p.LABELS, "final_labels": p.FLABELS, "surfaces": p.SURFACES, "rooms": p.ROOMS, "openings": p.OPENINGS, "summary": p.SUMMARY,
     }
     return kinds | {name: artefact(path) for name, path in artefacts.items()}

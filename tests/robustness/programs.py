@@ -14,7 +14,7 @@ CLOUD, SLICES, HOUGH, OPENINGS, EDIT = (PLACES[name] for name in ("cloud", "slic
 LINES_30, LINES_40, LINES_80 = (PLACES[name] for name in ("detected", "accepted", "refined"))
 CELLS, WEIGHTS, TERMS, LABELS = (PLACES[name] for name in ("cells", "weights", "terms", "labels"))
 FCELLS, FWEIGHTS, FTERMS, FLABELS = (PLACES[f"final_{name}"] for name in ("cells", "weights", "terms", "labels"))
-ROOMS, MODEL, OBJ, SUMMARY, REPORT = (PLACES[name] for name in ("rooms", "model", "model_obj", "summary", "report"))
+SURFACES, ROOMS, MODEL, OBJ, SUMMARY, REPORT = (PLACES[name] for name in ("surfaces", "rooms", "model", "model_obj", "summary", "report"))
 SCAN, STATIONS, TRUTH, TRUTH_JSON, SCENE = "scan.ply", "inputs/stations.txt", "truth.off", "truth.json", "scene.json"
 
 

@@ -74,8 +74,12 @@ std::function<bool(const Vec3&)> opening_test(const LabelledCells* cells) {
 }
 
 RoomScore room_score(const TruthRoom& room, const VolumeScores& volume, std::size_t index, double share) {
-  RoomScore out{room, volume.room_m3[index], volume.room_empty_m3[index], volume.room_unknown_m3[index],
-                RoomAnswer::kDenied};
+  RoomScore out{room,
+                volume.room_m3[index],
+                volume.room_empty_m3[index],
+                volume.room_unknown_m3[index],
+                RoomAnswer::kDenied,
+                {}};
   if (out.empty_m3 > share * out.volume_m3) {
     out.answer = RoomAnswer::kFound;
   } else if (out.empty_m3 + out.unknown_m3 > share * out.volume_m3) {
@@ -107,16 +111,19 @@ void score_spaces(const TriangleMesh& model, const TriangleMesh& truth, const Tr
   std::vector<std::uint8_t> found;
   for (std::size_t i = 0; i < rooms.size(); ++i) {
     scores.rooms.push_back(room_score(rooms[i], *scores.volume, i, params.found_share));
+    scores.rooms.back().heights = score_heights(rooms[i], truth_columns, model_columns);
     found.push_back(scores.rooms.back().found() ? 1 : 0);
   }
+  scores.columns = score_columns(described.columns, rooms, truth_columns, model_columns);
   scores.thin = score_thin_walls(truth_samples, truth_surface.all(), finder, model_columns,
                                  params.thin_wall_m, opening_test(cells), scanned);
   scores.merged = merged_rooms(scores.thin, found);
   if (cells != nullptr) {
-    scores.explanation = explain(
-        {cells->complex, cells->label, cells->terms ? &*cells->terms : nullptr, truth_columns, model_columns,
-         truth_surface, rooms, finder, found, scores.thin, described.ignored, params.thin_wall_m, b},
-        scores.column_spacing_m, kColumnSeed);
+    scores.explanation =
+        explain({cells->complex, cells->label, cells->surfaces, cells->terms ? &*cells->terms : nullptr,
+                 truth_columns, model_columns, truth_surface, rooms, finder, found, scores.thin,
+                 described.ignored, params.thin_wall_m, b},
+                scores.column_spacing_m, kColumnSeed);
   }
 }
 
@@ -184,6 +191,9 @@ Scores evaluate(const TriangleMesh& model, const TriangleMesh& truth, const Trut
   scores.walls_matched = matched_share(from_truth, SlopeClass::kWall);
   scores.walls_loosely_matched = matched_share(from_truth, SlopeClass::kWall, Match::kLoose);
   scores.horizontals_matched = matched_share(from_truth, SlopeClass::kHorizontal);
+  scores.horizontals_finely_matched = matched_share(from_truth, SlopeClass::kHorizontal, Match::kFine);
+  scores.slopes = score_slopes(from_truth, truth_surface, model_surface);
+  scores.niches = score_niches(described.niches, from_truth, truth_surface, model_surface);
   if (scores.model_check.closed() && scores.model_check.oriented()) {
     score_spaces(model, truth, described, params, from_truth, truth_surface, cells, scanned, scores);
   }

@@ -9,6 +9,7 @@
 
 #include "common/mesh/mesh_check.h"
 #include "stages/tools/evaluate/compared_axes.h"
+#include "stages/tools/evaluate/element_scores.h"
 #include "stages/tools/evaluate/explain.h"
 #include "stages/tools/evaluate/params.h"
 #include "stages/tools/evaluate/scanned_surface.h"
@@ -34,6 +35,7 @@ struct RoomScore {
   double volume_m3 = 0;
   double empty_m3 = 0, unknown_m3 = 0;  ///< parts of it, in the model
   RoomAnswer answer = RoomAnswer::kDenied;
+  RoomHeights heights = {};
   bool found() const { return answer == RoomAnswer::kFound; }
 };
 
@@ -59,6 +61,10 @@ struct Scores {
   /// Share of the truth's wall and horizontal area that a model surface follows closely; and of walls at
   /// least loosely.
   std::optional<double> walls_matched, horizontals_matched, walls_loosely_matched;
+  std::optional<double> horizontals_finely_matched;  ///< within 1 degree and 5 mm
+  SlopeScores slopes;
+  NicheScores niches;
+  std::optional<ColumnScores> columns;
   std::optional<VolumeScores> volume;
   std::vector<RoomScore> rooms;
   std::vector<std::vector<std::int32_t>> merged;  ///< groups of rooms
@@ -78,6 +84,8 @@ TriangleMesh prepared(const TriangleMesh& mesh, const ComparedAxes& axes);
 struct TruthDescription {
   std::vector<DescribedRoom> rooms;
   IgnoredSpace ignored;
+  std::vector<DescribedColumn> columns = {};
+  std::vector<DescribedNiche> niches = {};
 };
 
 /// Scores `model` against `truth`, both prepared() with the same axes; `described` in them, too; `cells`, if

@@ -14,13 +14,15 @@ namespace roomcut::evaluate {
 
 /// Of a truth.json, brought into `axes`: the `rooms`: name, floor, ceiling, either `polygon` ([[x, y], …]) or
 /// a point in it (`center`), and optionally `scanned`; optionally `ignore_boxes`: [[lower corner], [upper
-/// corner]] each. Other members are ignored. Throws StageError(kMeshFormat) for what is not that.
+/// corner]] each, `columns` and `niches` (schemas/truth.md). Other members are ignored. Throws
+/// StageError(kMeshFormat) for what is not that.
 TruthDescription read_truth_description(const std::filesystem::path& path, const ComparedAxes& axes);
 
-/// The cells, labels and, if given, data terms of one pass, brought into `axes`, whose turn becomes that of
-/// the cells: their faces stay upright and level. Errors as in cells_io.h.
+/// The cells, labels and, if given, data terms and surfaces of one pass, brought into `axes`, whose turn
+/// becomes that of the cells: their faces stay upright and level. Errors as in cells_io.h.
 LabelledCells read_labelled_cells(const std::filesystem::path& cells, const std::filesystem::path& labels,
-                                  const std::filesystem::path& terms, ComparedAxes& axes);
+                                  const std::filesystem::path& terms, const std::filesystem::path& surfaces,
+                                  ComparedAxes& axes);
 
 /// Where the points of a cloud.h5 lie. Errors as in cloud_io.h.
 ScannedSurface read_scanned_surface(const std::filesystem::path& path, const ComparedAxes& axes);

@@ -61,10 +61,12 @@ class Comparison {
   struct Column {
     double x, y;
     std::int32_t face;
+    std::vector<double> z;  // where the cells over each other end: per level
     std::vector<Crossing> crossings;
     std::vector<Interval> parts, model, ignored;  // empty in the truth, in the model; counted nowhere
   };
   void column_at(std::int64_t ix, std::int64_t iy, Column& column) const;
+  void stack_cells(Column& column) const;
   void measure_cells(std::int64_t iy, RowSums& sums) const;
   void find_causes(std::int64_t iy, RowSums& sums) const;
   void judge_cell(const Column& column, std::size_t layer, const std::vector<Interval>& rooms,
@@ -119,12 +121,29 @@ void Comparison::column_at(std::int64_t ix, std::int64_t iy, Column& column) con
   column.x = lo_.x() + (static_cast<double>(ix) + jx) * spacing_;
   column.y = lo_.y() + (static_cast<double>(iy) + jy) * spacing_;
   column.face = locator_.face_at({column.x, column.y});
+  stack_cells(column);
   input_.truth.crossings(column.x, column.y, column.crossings);
   enclosed(column.crossings, -1, column.parts);
   std::vector<Crossing> crossings;
   input_.model.crossings(column.x, column.y, crossings);
   enclosed(crossings, -1, column.model);
   input_.ignored.at(column.x, column.y, column.parts, column.ignored);
+}
+
+/// Cells end at the surfaces that stand in place of their levels; one that is pushed aside has no height.
+void Comparison::stack_cells(Column& column) const {
+  column.z = complex_.levels;
+  if (column.face < 0 || input_.surfaces.of_face.empty()) {
+    return;
+  }
+  for (std::size_t l = 0; l < column.z.size(); ++l) {
+    const std::int32_t surface =
+        input_.surfaces.of_face[complex_.level_face(static_cast<std::size_t>(column.face), l)];
+    if (surface >= 0) {
+      column.z[l] = input_.surfaces.surfaces[static_cast<std::size_t>(surface)].height({column.x, column.y});
+    }
+    column.z[l] = l > 0 ? std::max(column.z[l], column.z[l - 1]) : column.z[l];
+  }
 }
 
 void Comparison::measure_cells(std::int64_t iy, RowSums& sums) const {
@@ -139,10 +158,10 @@ void Comparison::measure_cells(std::int64_t iy, RowSums& sums) const {
     }
     for (std::size_t k = 0; k < complex_.layers(); ++k) {
       const std::size_t cell = complex_.cell(static_cast<std::size_t>(column.face), k);
-      clip(column.parts, complex_.levels[k], complex_.levels[k + 1], inside);
+      clip(column.parts, column.z[k], column.z[k + 1], inside);
       sums.cell_truth.emplace_back(cell, total_length(inside));
-      clip(column.ignored, complex_.levels[k], complex_.levels[k + 1], ignored);
-      sums.cell_height.emplace_back(cell, complex_.height(k) - total_length(ignored));
+      clip(column.ignored, column.z[k], column.z[k + 1], ignored);
+      sums.cell_height.emplace_back(cell, column.z[k + 1] - column.z[k] - total_length(ignored));
     }
   }
 }
@@ -176,8 +195,8 @@ double Comparison::iou(const std::vector<std::uint8_t>& label) const {
 }
 
 Cause Comparison::geometry(const Column& column, std::size_t layer, const Interval& wrong) const {
-  const double lo = complex_.levels[layer];
-  const double hi = complex_.levels[layer + 1];
+  const double lo = column.z[layer];
+  const double hi = column.z[layer + 1];
   const bool at_floor = wrong.lo <= lo + kRounding;
   const bool at_ceiling = wrong.hi >= hi - kRounding;
   // Wrong from floor to ceiling, but for a level that is slightly off: the truth has a wall in this cell.
@@ -216,8 +235,8 @@ void Comparison::judge_opening(const Column& column, double lo, double hi, std::
 void Comparison::judge_cell(const Column& column, std::size_t layer, const std::vector<Interval>& rooms,
                             RowSums& sums) const {
   const std::size_t cell = complex_.cell(static_cast<std::size_t>(column.face), layer);
-  const double lo = complex_.levels[layer];
-  const double hi = complex_.levels[layer + 1];
+  const double lo = column.z[layer];
+  const double hi = column.z[layer + 1];
   const bool empty = is_empty(input_.label, cell);
   std::vector<Interval> inside;
   clip(column.parts, lo, hi, inside);
@@ -255,7 +274,7 @@ void Comparison::room_parts(const Column& column, std::vector<Interval>& prisms,
   const auto add = [&](std::int32_t room, const std::vector<Interval>& parts) {
     std::vector<Interval> inside;
     for (std::size_t k = 0; column.face >= 0 && k < complex_.layers(); ++k) {
-      clip(parts, complex_.levels[k], complex_.levels[k + 1], inside);
+      clip(parts, column.z[k], column.z[k + 1], inside);
       if (!inside.empty()) {
         sums.rooms.push_back(
             {room, complex_.cell(static_cast<std::size_t>(column.face), k), total_length(inside)});
@@ -291,7 +310,7 @@ void Comparison::find_causes(std::int64_t iy, RowSums& sums) const {
     room_parts(column, prisms, sums);
     std::vector<Interval> inside;
     if (column.face >= 0) {
-      clip(column.parts, complex_.levels.front(), complex_.levels.back(), inside);
+      clip(column.parts, column.z.front(), column.z.back(), inside);
     }
     sums.lost[static_cast<std::size_t>(Cause::kOutside)] += total_length(column.parts) - total_length(inside);
     for (std::size_t k = 0; column.face >= 0 && k < complex_.layers(); ++k) {
@@ -386,6 +405,12 @@ CellComplex moved(CellComplex complex, const Vec3& by) {
   for (double& z : complex.levels) {
     z += by.z();
   }
+  for (SlopedPlane& plane : complex.planes) {
+    plane.c += by.z() - plane.gradient.dot(by.head<2>());
+    for (Vec2& p : plane.outline) {
+      p += by.head<2>();
+    }
+  }
   for (CellComplex::Line& line : complex.lines) {
     const Vec2 normal(std::cos(line.line.theta), std::sin(line.line.theta));
     const double along = normal.x() * by.y() - normal.y() * by.x();
@@ -394,6 +419,13 @@ CellComplex moved(CellComplex complex, const Vec3& by) {
     line.t1 += along;
   }
   return complex;
+}
+
+LevelSurfaces moved(LevelSurfaces surfaces, const Vec3& by) {
+  for (LevelSurface& surface : surfaces.surfaces) {
+    surface.c += by.z() - surface.gradient.dot(by.head<2>());
+  }
+  return surfaces;
 }
 
 }  // namespace roomcut::evaluate

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/cells/cell_complex.h"
+#include "common/cells/level_surfaces.h"
 #include "stages/tools/evaluate/spaces.h"
 #include "stages/tools/evaluate/surface_scores.h"
 #include "stages/tools/evaluate/thin_walls.h"
@@ -79,6 +80,7 @@ struct Explanation {
 struct LabelledCells {
   CellComplex complex;
   std::vector<std::uint8_t> label;  ///< per cell
+  LevelSurfaces surfaces;           ///< the true floors and ceilings of these labels; may be empty
   std::optional<DataTerms> terms;
   std::string payload_sha256;  ///< of the artefact that holds the cells; empty when none does
 };
@@ -87,6 +89,7 @@ struct LabelledCells {
 struct ExplainInput {
   const CellComplex& complex;
   const std::vector<std::uint8_t>& label;  ///< per cell
+  const LevelSurfaces& surfaces;           ///< where cells end in place of their levels; may be empty
   const DataTerms* terms;                  ///< may be null: the evidence is 0 then
   const Columns& truth;
   const Columns& model;  ///< of the cells labelled empty, openings cut
@@ -106,7 +109,8 @@ struct ExplainInput {
 /// number of threads.
 Explanation explain(const ExplainInput& input, double spacing_m, std::uint64_t seed);
 
-/// The complex moved by `by`.
+/// The complex, or the surfaces, moved by `by`.
 CellComplex moved(CellComplex complex, const Vec3& by);
+LevelSurfaces moved(LevelSurfaces surfaces, const Vec3& by);
 
 }  // namespace roomcut::evaluate

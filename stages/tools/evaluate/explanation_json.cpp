@@ -5,6 +5,7 @@
 
 #include "common/artefact/json_values.h"
 #include "common/cells/cells_io.h"
+#include "common/cells/surfaces_io.h"
 #include "common/geometry/level_turn.h"
 #include "stages/tools/evaluate/evaluate_io.h"
 
@@ -44,7 +45,8 @@ std::string evidence_text(const Explanation::Evidence& e) {
 }  // namespace
 
 LabelledCells read_labelled_cells(const std::filesystem::path& cells, const std::filesystem::path& labels,
-                                  const std::filesystem::path& terms, ComparedAxes& axes) {
+                                  const std::filesystem::path& terms, const std::filesystem::path& surfaces,
+                                  ComparedAxes& axes) {
   const CellsFile file = read_cells(cells);
   LabelledCells out;
   out.label = read_labels(labels, file).label;
@@ -54,7 +56,11 @@ LabelledCells read_labelled_cells(const std::filesystem::path& cells, const std:
   }
   axes.turn = level_turn(file.complex.frame.level);
   const double* local = file.complex.frame.origin;
-  out.complex = moved(file.complex, axes.from_file(Vec3(local[0], local[1], local[2])));
+  const Vec3 by = axes.from_file(Vec3(local[0], local[1], local[2]));
+  out.complex = moved(file.complex, by);
+  if (!surfaces.empty()) {
+    out.surfaces = moved(read_surfaces(surfaces, file), by);
+  }
   return out;
 }
 

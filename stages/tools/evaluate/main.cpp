@@ -17,7 +17,7 @@ using namespace roomcut::evaluate;
 StageInfo info() {
   StageInfo stage;
   stage.name = "evaluate";
-  stage.revision = 2;
+  stage.revision = 3;
   stage.summary = "Scores a model against a truth mesh";
   stage.inputs = {
       {"model", "Mesh to judge: PLY, OFF or OBJ"},
@@ -26,6 +26,7 @@ StageInfo info() {
       {"cells", "Cells that the model was made of: explains what is wrong", true},
       {"labels", "Their labels; required with --cells", true},
       {"terms", "Their data terms: adds the evidence", true},
+      {"surfaces", "True floors and ceilings of these labels: where the cells end", true},
       {"cloud", "Scan that the model was made of: tells walls from doors up to the ceiling", true}};
   stage.outputs = {{"scores", "All scores"},
                    {"coloured", "The model coloured by its distance to the truth"},
@@ -61,7 +62,8 @@ void body(StageRun& run, const EvaluateParams& params) {
   ComparedAxes axes{0.5 * (box.lo + box.hi)};
   std::optional<LabelledCells> cells;
   if (!run.input("cells").empty()) {
-    cells = read_labelled_cells(run.input("cells"), run.input("labels"), run.input("terms"), axes);
+    cells = read_labelled_cells(run.input("cells"), run.input("labels"), run.input("terms"),
+                                run.has_input("surfaces") ? run.input("surfaces") : "", axes);
   }
   TruthDescription described;
   if (run.has_input("truth-json")) {

@@ -94,6 +94,8 @@ Json rooms_json(const Scores& scores) {
                     {"found", room.found()},
                     {"unknown_in_model", share(room.unknown_m3, room.volume_m3)},
                     {"answer", kRoomAnswers[static_cast<std::size_t>(room.answer)]},
+                    {"floor_off_m", or_null(room.heights.floor_off_m)},
+                    {"ceiling_off_m", or_null(room.heights.ceiling_off_m)},
                     {"scanned", room.room.scanned}});
   }
   return {{"truth", scores.rooms.size()},
@@ -123,6 +125,44 @@ Json thin_json(const Scores& scores) {
           {"pairs", pairs}};
 }
 
+Json columns_json(const Scores& scores) {
+  if (!scores.columns) {
+    return nullptr;
+  }
+  const ColumnScores& columns = *scores.columns;
+  Json list = Json::array();
+  for (const ColumnScores::Column& column : columns.columns) {
+    list.push_back({{"size_m", column.size_m}, {"solid_in_model", column.solid}, {"found", column.found()}});
+  }
+  return {{"truth", columns.columns.size()},
+          {"found", columns.found()},
+          {"false", columns.false_pillars},
+          {"floor_m2", columns.floor_m2},
+          {"list", list}};
+}
+
+Json niches_json(const NicheScores& niches) {
+  Json list = Json::array();
+  for (const NicheScores::Niche& niche : niches.niches) {
+    list.push_back({{"width_m", niche.width_m},
+                    {"depth_m", niche.depth_m},
+                    {"pilaster", niche.solid},
+                    {"area_m2", niche.area_m2},
+                    {"within_2cm", share(niche.near_m2, niche.area_m2)}});
+  }
+  return {{"truth", niches.niches.size()},
+          {"area_m2", niches.area_m2()},
+          {"within_2cm", share(niches.near_m2(), niches.area_m2())},
+          {"list", list}};
+}
+
+Json slopes_json(const SlopeScores& slopes) {
+  return {{"area_m2", slopes.area_m2},
+          {"angle_median_deg", or_null(slopes.angle_median_deg)},
+          {"angle_p95_deg", or_null(slopes.angle_p95_deg)},
+          {"within_1deg_2cm", or_null(slopes.matched)}};
+}
+
 Json scores_json(const Scores& scores) {
   Json isprs = Json::array();
   for (const Scores::Isprs& at : scores.isprs) {
@@ -143,6 +183,10 @@ Json scores_json(const Scores& scores) {
           {"walls_within_1deg_2cm", or_null(scores.walls_matched)},
           {"walls_within_1_5deg_4cm", or_null(scores.walls_loosely_matched)},
           {"horizontals_within_1deg_2cm", or_null(scores.horizontals_matched)},
+          {"horizontals_within_1deg_5mm", or_null(scores.horizontals_finely_matched)},
+          {"slopes", slopes_json(scores.slopes)},
+          {"columns", columns_json(scores)},
+          {"niches", niches_json(scores.niches)},
           {"rooms", rooms_json(scores)},
           {"thin", thin_json(scores)},
           {"explanation", scores.explanation ? explanation_json(*scores.explanation, scores) : Json(nullptr)},

@@ -65,6 +65,24 @@ std::string space_rows(const Scores& s) {
          ", slabs kept " + ratio(s.thin.slab_kept_m2, s.thin.slab_m2) + "\n";
 }
 
+std::string element_rows(const Scores& s) {
+  std::string text;
+  if (s.slopes.angle_median_deg) {
+    text += format("slopes            %.1f m2, angle off by %.2f deg (95 %%: %.2f), ", s.slopes.area_m2,
+                   *s.slopes.angle_median_deg, *s.slopes.angle_p95_deg) +
+            percent(s.slopes.matched) + " within 1 deg and 2 cm\n";
+  }
+  if (s.columns && (!s.columns->columns.empty() || s.columns->false_pillars > 0)) {
+    text += format("columns           %zu of %zu found, %zu false on %.0f m2\n", s.columns->found(),
+                   s.columns->columns.size(), s.columns->false_pillars, s.columns->floor_m2);
+  }
+  if (!s.niches.niches.empty()) {
+    text += format("niches            %zu, of their faces ", s.niches.niches.size()) +
+            ratio(s.niches.near_m2(), s.niches.area_m2()) + " within 2 cm\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string scores_table(const Scores& s) {
@@ -78,6 +96,8 @@ std::string scores_table(const Scores& s) {
   text += space_rows(s);
   text += "within 1 deg and 2 cm         walls " + percent(s.walls_matched) + ", floors and ceilings " +
           percent(s.horizontals_matched) + "\n";
+  text += "within 1 deg and 5 mm         floors and ceilings " + percent(s.horizontals_finely_matched) + "\n";
+  text += element_rows(s);
   text += "ISPRS within         complete      correct  accuracy m\n";
   for (const Scores::Isprs& at : s.isprs) {
     text += isprs_row(at.buffer_m, "walls", at.walls) + isprs_row(at.buffer_m, "horizontals", at.horizontals);

@@ -14,7 +14,9 @@ namespace roomcut::evaluate {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kClassLimit = 0.10 + 1e-9;  // the largest buffer; what lies on its border is within
+constexpr double kClassLimit = 0.10 + 1e-9;    // the largest buffer; what lies on its border is within
+constexpr double kNearlyLevel = 20 * kDegree;  // steeper ones may be met by a surface of another class
+constexpr double kFineDistance = 0.005;
 constexpr double kCloseDistance = 0.02, kCloseAngle = 1 * kDegree;
 constexpr double kLooseDistance = 0.04, kLooseAngle = 1.5 * kDegree;
 
@@ -88,6 +90,9 @@ Match match(const MeshTree& surface, const Vec3& p, const Vec3& normal, double n
     return nearest_m <= distance &&
            surface.nearest_facing(p, distance + 1e-9, normal, std::cos(angle)).triangle >= 0;
   };
+  if (follows(kFineDistance, kCloseAngle)) {
+    return Match::kFine;
+  }
   if (follows(kCloseDistance, kCloseAngle)) {
     return Match::kClose;
   }
@@ -139,9 +144,10 @@ SurfaceDistances measure(const TriangleMesh& from, const MeasuredSurface& from_s
           const bool same = slope_class(to.all().unit_normal(hit.triangle)) == out.slope[i];
           out.class_distance[i] =
               same ? hit.distance : to.of(out.slope[i]).nearest(sample.point, kClassLimit).distance;
-          if (out.slope[i] != SlopeClass::kSloped) {
-            out.match[i] = match(to.of(out.slope[i]), sample.point, normal, hit.distance);
-          }
+          const bool steep =
+              std::abs(normal.z()) < std::cos(kNearlyLevel) && out.slope[i] != SlopeClass::kWall;
+          const MeshTree& candidates = steep ? to.all() : to.of(out.slope[i]);
+          out.match[i] = match(candidates, sample.point, normal, hit.distance);
         }
       });
   out.deviation = summarise(out);

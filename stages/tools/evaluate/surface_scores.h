@@ -21,9 +21,9 @@ struct Deviation {
   double mean = 0, rms = 0, p95 = 0;
 };
 
-/// How closely a surface is met: within 1 degree and 2 cm; within 1.5 degrees and 4 cm, as well as the scans
-/// of phones and depth cameras allow; or not.
-enum class Match : std::uint8_t { kNone = 0, kLoose = 1, kClose = 2 };
+/// How closely a surface is met: within 1 degree and 5 mm, or 2 cm; within 1.5 degrees and 4 cm, as well as
+/// the scans of phones and depth cameras allow; or not.
+enum class Match : std::uint8_t { kNone = 0, kLoose = 1, kClose = 2, kFine = 3 };
 
 /// One surface against another, sample by sample.
 struct SurfaceDistances {
@@ -32,7 +32,7 @@ struct SurfaceDistances {
   std::vector<double> distance;   ///< to the other surface
   std::vector<double>
       class_distance;  ///< to the other surface's triangles of the same slope class; infinite beyond 10 cm
-  /// Walls, horizontals: how closely a triangle of the other surface that faces the same way follows.
+  /// How closely a triangle of the other surface that faces the same way follows.
   std::vector<Match> match;
   Deviation deviation;
 };

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
 #include "common/artefact/atomic_file.h"
 #include "common/artefact/json_values.h"
 #include "common/errors/codes.h"
@@ -41,6 +43,33 @@ Bounds3 ignored_box(const Json& corners) {
   return {a.cwiseMin(b), a.cwiseMax(b)};
 }
 
+/// Reads polygon, z0 and z1 of a column or niche.
+template <class Described>
+Described described_prism(const Json& prism, const ComparedAxes& axes) {
+  Described out;
+  out.z0 = axes.from_file({0, 0, scan_metres(prism.at("z0"))}).z();
+  out.z1 = out.z0 + scan_metres(prism.at("z1")) - scan_metres(prism.at("z0"));
+  for (const Json& p : prism.at("polygon")) {
+    out.polygon.emplace_back(
+        axes.from_file({scan_metres(p.at(0)), scan_metres(p.at(1)), 0}).template head<2>());
+  }
+  return out;
+}
+
+DescribedColumn described_column(const Json& column, const ComparedAxes& axes) {
+  auto out = described_prism<DescribedColumn>(column, axes);
+  out.size_m = std::min(scan_metres(column.at("width")), scan_metres(column.at("depth")));
+  return out;
+}
+
+DescribedNiche described_niche(const Json& niche, const ComparedAxes& axes) {
+  auto out = described_prism<DescribedNiche>(niche, axes);
+  out.width_m = scan_metres(niche.at("width"));
+  out.depth_m = scan_metres(niche.at("depth"));
+  out.solid = niche.value("pilaster", false);
+  return out;
+}
+
 }  // namespace
 
 TruthDescription read_truth_description(const std::filesystem::path& path, const ComparedAxes& axes) {
@@ -60,6 +89,12 @@ TruthDescription read_truth_description(const std::filesystem::path& path, const
     std::vector<Bounds3> boxes;
     for (const Json& box : root.value("ignore_boxes", Json::array())) {
       boxes.push_back(ignored_box(box));
+    }
+    for (const Json& column : root.value("columns", Json::array())) {
+      out.columns.push_back(described_column(column, axes));
+    }
+    for (const Json& niche : root.value("niches", Json::array())) {
+      out.niches.push_back(described_niche(niche, axes));
     }
     out.ignored = IgnoredSpace(std::move(boxes), axes);
   } catch (const Json::exception& error) {

@@ -133,4 +133,35 @@ Picture draw_openings(const std::string& stage, const CellComplex& complex, cons
           "Blue: rooms. Black: walls. Green: openings, proven by points on jambs and head.", svg.str()};
 }
 
+Picture draw_surfaces(const std::string& stage, const CellComplex& complex, const LevelSurfaces& surfaces,
+                      std::size_t level) {
+  constexpr double kFull_m = 0.02;
+  Svg svg = plan_of(complex);
+  for (std::size_t f = 0; f < complex.faces(); ++f) {
+    const std::int32_t index = surfaces.of_face[complex.level_face(f, level)];
+    const FaceCorners corners = complex.corners(f);
+    Colour fill = kSolid;
+    char text[200] = "";
+    if (index >= 0) {
+      const LevelSurface& surface = surfaces.surfaces[static_cast<std::size_t>(index)];
+      const Vec2 middle = complex.centroid(f);
+      const double shift = surface.height(middle) - complex.levels[level];
+      fill = diverging_colour(std::clamp(shift / kFull_m, -1.0, 1.0));
+      std::snprintf(text, sizeof text,
+                    "%.4f m, %+.1f mm from its level; sigma %.1f mm, falls by %.2f %%, %lld points",
+                    surface.height(middle) + complex.frame.origin[2], 1e3 * shift, 1e3 * surface.sigma_m,
+                    100 * surface.gradient.norm(), static_cast<long long>(surface.points));
+    }
+    svg.polygon(std::vector<Vec2>(corners.begin(), corners.end()), fill, 1, text);
+  }
+  char title[100];
+  std::snprintf(title, sizeof title, "Floors and ceilings of the level at %.2f m",
+                complex.levels[level] + complex.frame.origin[2]);
+  return {
+      stage, name_of(stage, level), title,
+      "Orange: higher than the level, up to 2 cm. Blue: lower. White: at it. Grey: no floor or ceiling, or "
+      "too little of it seen.",
+      svg.str()};
+}
+
 }  // namespace roomcut::report

@@ -2,6 +2,7 @@
 #include "stages/tools/report/pass_pictures.h"
 
 #include "common/cells/cells_io.h"
+#include "common/cells/surfaces_io.h"
 #include "common/openings/openings_io.h"
 
 namespace roomcut::report {
@@ -66,6 +67,20 @@ void draw_openings_of(const StageRun& run, const PassInputs& inputs, std::vector
   const Openings openings = read_openings(run.input("openings"), cells.payload_sha256).content;
   for (const std::size_t k : shown_layers(cells.complex, &labels)) {
     pictures.push_back(draw_openings("find_openings", cells.complex, labels, openings.openings, k));
+  }
+}
+
+void draw_surfaces_of(const StageRun& run, const PassInputs& inputs, std::vector<Picture>& pictures) {
+  const CellsFile cells = read_cells(run.input(inputs.cells));
+  const LevelSurfaces surfaces = read_surfaces(run.input("surfaces"), cells);
+  for (std::size_t level = 0; level < cells.complex.levels.size(); ++level) {
+    bool any = false;
+    for (std::size_t f = 0; !any && f < cells.complex.faces(); ++f) {
+      any = surfaces.of_face[cells.complex.level_face(f, level)] >= 0;
+    }
+    if (any) {
+      pictures.push_back(draw_surfaces("fit_surfaces", cells.complex, surfaces, level));
+    }
   }
 }
 

@@ -25,6 +25,8 @@ void draw_evidence_of(const StageRun& run, const PassInputs& inputs, const std::
                       std::vector<Picture>& pictures);
 void draw_labels_of(const StageRun& run, const PassInputs& inputs, const std::string& stage,
                     std::vector<Picture>& pictures);
+/// One picture for each level that has a surface.
+void draw_surfaces_of(const StageRun& run, const PassInputs& inputs, std::vector<Picture>& pictures);
 void draw_openings_of(const StageRun& run, const PassInputs& inputs, std::vector<Picture>& pictures);
 
 }  // namespace roomcut::report

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/cells/cell_complex.h"
+#include "common/cells/level_surfaces.h"
 #include "common/mesh/triangle_mesh.h"
 #include "common/openings/opening.h"
 #include "common/picture/image.h"
@@ -52,6 +53,10 @@ Picture draw_cells(const std::string& stage, const CellComplex& complex, const D
 /// Rooms, walls and the openings that reach into a layer.
 Picture draw_openings(const std::string& stage, const CellComplex& complex, const Labels& labels,
                       const std::vector<Opening>& openings, std::size_t layer);
+
+/// How far floors and ceilings lie from one level; tooltips give height, sigma and tilt.
+Picture draw_surfaces(const std::string& stage, const CellComplex& complex, const LevelSurfaces& surfaces,
+                      std::size_t level);
 
 /// The model seen from above at a slant, walls and ceilings between the eye and the rooms left out (paper,
 /// Figure 5).

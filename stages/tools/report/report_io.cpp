@@ -29,6 +29,7 @@ std::vector<StageFile> report_inputs() {
           {"weights", "the weights of their faces", true},
           {"terms", "their data terms", true},
           {"labels", "their labels", true},
+          {"surfaces", "the true floors and ceilings", true},
           {"rooms", "storeys and rooms of the cells", true},
           {"openings", "the openings", true},
           {"model", "the model", true},

@@ -89,6 +89,13 @@ std::vector<StageDrawing> stage_drawings(const std::vector<ThinPoint>& points) {
   add_pass("", first, false, list);
   list.push_back({"refine_lines", {"lines", "refined"}, true, false, draw_refined});
   add_pass("final_", second, true, list);
+  list.push_back({"fit_surfaces",
+                  {"cells", "surfaces"},
+                  false,
+                  false,
+                  [second](const StageRun& run, const ReportParams& /*params*/, Pictures& pictures) {
+                    draw_surfaces_of(run, second, pictures);
+                  }});
   list.push_back({"find_openings",
                   {"cells", "labels", "openings"},
                   false,

@@ -144,7 +144,8 @@ void Placer::add_door(const SceneDoor& door, std::size_t index) {
     }
   };
   clear(a, {box[0], jamb0, jamb1, box[3]});
-  clear(b, {box[1], Vec2(jamb0 + *d0 * out), Vec2(jamb1 + *d1 * out), box[2]});
+  // A round wall of b may come nearer between the jambs, up to the wall of a.
+  clear(b, {jamb0, jamb1, box[1], Vec2(jamb0 + *d0 * out), Vec2(jamb1 + *d1 * out), box[2]});
   place->z0 = micrometres(floor + door.sill);
   place->z1 = micrometres(place->z0 + door.height);
   if (place->z1 > ceiling + 1e-9) {

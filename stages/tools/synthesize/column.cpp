@@ -5,11 +5,30 @@
 #include <cmath>
 #include <numbers>
 
+#include "stages/tools/synthesize/plan.h"
+
 namespace roomcut::synthesize {
 
 int fine_chords(double radius, double angle) {
   const double each = 2 * std::acos(std::max(0.0, 1 - kSagitta / radius));
   return std::clamp(static_cast<int>(std::ceil(angle / each)), 3, 720);
+}
+
+int smooth_chords(const Vec2& a, const Vec2& b, const Vec2& c) {
+  double length = 0;
+  Vec2 last = a;
+  double turn = 0;
+  Vec2 heading(0, 0);
+  for (const Vec2& p : arc_points(a, b, c, 64)) {
+    const Vec2 step = p - last;
+    if (length > 0)
+      turn += std::abs(std::atan2(heading.x() * step.y() - heading.y() * step.x(), heading.dot(step)));
+    length += step.norm();
+    heading = step;
+    last = p;
+  }
+  const double angle = turn * 64 / 63;
+  return fine_chords(length / angle, angle);
 }
 
 SceneColumn round_column(const Vec2& centre, double diameter) {

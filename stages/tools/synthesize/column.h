@@ -10,6 +10,8 @@ inline constexpr double kSagitta = 2e-4;
 
 /// How many chords an arc of an angle [rad] takes at kSagitta.
 int fine_chords(double radius, double angle);
+/// The same of the arc from a through b to c. Throws std::invalid_argument when they are collinear.
+int smooth_chords(const Vec2& a, const Vec2& b, const Vec2& c);
 
 /// A round column; its polygon has the circle's area, so that its volume is the cylinder's.
 SceneColumn round_column(const Vec2& centre, double diameter);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "common/random/counter_random.h"
+#include "stages/tools/synthesize/arc_elements.h"
 #include "stages/tools/synthesize/column.h"
 #include "stages/tools/synthesize/plan.h"
 #include "stages/tools/synthesize/room_heights.h"
@@ -23,14 +24,17 @@ constexpr double kThroughWall = 0.3;      // a doorway's box ends within this of
 constexpr double kColumnClearance = 0.8;  // from walls, doorways and shafts [m]
 constexpr double kNicheClearance = 0.25;  // from corners, doorways, windows and other niches [m]
 
-/// The direction of the polygon's longest side.
-Vec2 main_direction(const Polygon2& polygon) {
+Vec2 longest_side(const Polygon2& polygon) {
   Vec2 longest(0, 0);
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec2 side = polygon[(i + 1) % polygon.size()] - polygon[i];
     if (side.norm() > longest.norm() + 1e-9) longest = side;
   }
-  return longest.normalized();
+  return longest;
+}
+
+Vec2 main_direction(const Polygon2& polygon) {
+  return longest_side(polygon).normalized();
 }
 
 /// Least and greatest coordinate along a direction.
@@ -47,9 +51,13 @@ class ElementMaker {
   ElementMaker(std::uint64_t seed, std::uint64_t stream, Scene& scene)
       : seed_(seed), stream_(0x656c6500 + stream), scene_(scene) {}
 
+  void add_arcs() {
+    synthesize::add_arcs(scene_, [this] { return draw(); });
+  }
   void add_roof();
   void add_ramps();
   void add_heights();
+  void add_beams();
   void add_columns();
   void add_niches();
 
@@ -72,13 +80,14 @@ class ElementMaker {
 void ElementMaker::add_roof() {
   const int top = static_cast<int>(scene_.storeys.size()) - 1;
   Polygon2 footprint;
+  Vec2 along(0, 0);
   double floor = 1e300;
   for (const SceneRoom& room : scene_.rooms) {
     if (room.storey != top) continue;
+    if (longest_side(room.polygon).norm() > along.norm() + 1e-6) along = longest_side(room.polygon);
     footprint.insert(footprint.end(), room.polygon.begin(), room.polygon.end());
     floor = std::min(floor, room.floor);
   }
-  const Vec2 along = main_direction(scene_.rooms.back().polygon);
   const double turn = std::atan2(along.y(), along.x()) + (chance(0.5) ? std::numbers::pi / 2 : 0);
   const auto kind = static_cast<RoofKind>(static_cast<int>(draw(0, 3)));
   const Vec2 falls(std::cos(turn), std::sin(turn));
@@ -148,6 +157,30 @@ void ElementMaker::add_heights() {
   for (SceneRoom& room : scene_.rooms) {
     room.floor += off();
     room.ceiling += off();
+  }
+}
+
+/// Under level ceilings that are high enough.
+void ElementMaker::add_beams() {
+  for (std::size_t r = 0; r < scene_.rooms.size(); ++r) {
+    SceneRoom& room = scene_.rooms[r];
+    const double depth = draw(0.15, 0.4);
+    const double width = draw(0.2, 0.4);
+    const int count = static_cast<int>(draw(1, 4));
+    const bool stairwell = std::any_of(scene_.shafts.begin(), scene_.shafts.end(),
+                                       [&](const SceneShaft& s) { return s.lower == static_cast<int>(r); });
+    if (!chance(0.5) || stairwell || !room.level_ceiling || room.ceiling - room.floor - depth < 2.2) continue;
+    const Vec2 u = main_direction(room.polygon);
+    const Vec2 v(-u.y(), u.x());
+    const auto [u0, u1] = reach(room.polygon, u);
+    const auto [v0, v1] = reach(room.polygon, v);
+    for (int i = 1; i <= count; ++i) {
+      const Vec2 a = (u0 + i * (u1 - u0) / (count + 1) - width / 2) * u;
+      const Vec2 b = a + width * u;
+      const Vec2 near = (v0 - 1) * v;
+      const Vec2 far = (v1 + 1) * v;
+      room.slopes.push_back({true, {0, 0}, room.ceiling - depth, {a + near, b + near, b + far, a + far}});
+    }
   }
 }
 
@@ -286,11 +319,11 @@ struct Element {
   const char* name;
   void (ElementMaker::*add)();
 };
-constexpr Element kElements[] = {{"heights", &ElementMaker::add_heights},
-                                 {"roof", &ElementMaker::add_roof},
-                                 {"ramps", &ElementMaker::add_ramps},
-                                 {"columns", &ElementMaker::add_columns},
-                                 {"niches", &ElementMaker::add_niches}};
+constexpr Element kElements[] = {
+    {"heights", &ElementMaker::add_heights}, {"arcs", &ElementMaker::add_arcs},
+    {"roof", &ElementMaker::add_roof},       {"ramps", &ElementMaker::add_ramps},
+    {"beams", &ElementMaker::add_beams},     {"columns", &ElementMaker::add_columns},
+    {"niches", &ElementMaker::add_niches}};
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 
 #include "stages/tools/synthesize/column.h"
 #include "stages/tools/synthesize/room_heights.h"
+#include "stages/tools/synthesize/scene_limits.h"
 
 namespace roomcut::synthesize {
 
@@ -15,7 +16,8 @@ using nlohmann::json;
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kSteepest = 85;  // of slopes [degrees]
+constexpr double kSameCircle = 1e-6;  // [m]
+constexpr double kSteepest = 75;      // of slopes [degrees]
 
 class ElementReader {
  public:
@@ -24,6 +26,11 @@ class ElementReader {
   void read() {
     each("slopes", &ElementReader::read_slope);
     if (const json* value = node_.member("roof")) read_roof(*value, node_.path("roof"));
+    if (room_.slopes.size() > scene_limits::kSlopes) {
+      node_.problem("more than " + std::to_string(scene_limits::kSlopes) + " slopes, the roof's among them",
+                    "divide the room, or leave some out");
+      room_.slopes.clear();
+    }
     each("columns", &ElementReader::read_column);
     each("niches", &ElementReader::read_niche);
   }
@@ -94,7 +101,50 @@ class ElementReader {
   SceneRoom& room_;
 };
 
+/// The circle through the corners first, …, last of a polygon; those at the ends may have been moved by an
+/// inset.
+SceneArc arc_through(const Polygon2& polygon, std::size_t first, std::size_t last) {
+  const auto corner = [&](std::size_t i) { return polygon[i % polygon.size()]; };
+  const Vec2 a = corner(first + 1);
+  const Vec2 ab = corner((first + last) / 2) - a;
+  const Vec2 ac = corner(last - 1) - a;
+  const double d = 2 * (ab.x() * ac.y() - ab.y() * ac.x());
+  const Vec2 to_centre(ac.y() * ab.squaredNorm() - ab.y() * ac.squaredNorm(),
+                       ab.x() * ac.squaredNorm() - ac.x() * ab.squaredNorm());
+  SceneArc arc{a + to_centre / d, to_centre.norm() / std::abs(d), corner(first), corner(last), d > 0};
+  if (!arc.bulges) std::swap(arc.from, arc.to);
+  return arc;
+}
+
+/// Lengthens the last arc when the new one goes on with its circle.
+void add_arc(const SceneArc& arc, std::vector<SceneArc>& arcs) {
+  const bool goes_on = !arcs.empty() && arcs.back().bulges == arc.bulges &&
+                       (arcs.back().centre - arc.centre).norm() < kSameCircle &&
+                       std::abs(arcs.back().radius - arc.radius) < kSameCircle;
+  if (!goes_on) {
+    arcs.push_back(arc);
+  } else if (arc.bulges) {
+    arcs.back().to = arc.to;
+  } else {
+    arcs.back().from = arc.from;
+  }
+}
+
 }  // namespace
+
+std::vector<SceneArc> arcs_of(const Polygon2& polygon, const std::vector<std::size_t>& side) {
+  std::vector<SceneArc> arcs;
+  const std::size_t n = side.size();
+  std::size_t start = 0;  // a run may go on past the polygon's first corner
+  while (start + 1 < n && side[start] == side[(start + n - 1) % n]) ++start;
+  for (std::size_t first = start; first < start + n;) {
+    std::size_t last = first;
+    while (last < start + n && side[last % n] == side[first % n]) ++last;
+    if (last - first >= 4) add_arc(arc_through(polygon, first, last), arcs);
+    first = last;
+  }
+  return arcs;
+}
 
 void read_room_elements(SceneNode& node, SceneRoom& room) {
   ElementReader(node, room).read();

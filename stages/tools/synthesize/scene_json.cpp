@@ -110,8 +110,8 @@ void SceneParser::parse_room(const json& value, const std::string& path, double 
   room.scanned = node.boolean("scanned", true);
   if (room.ceiling < room.floor + 0.1) node.problem("the ceiling is less than 0.1 m above the floor");
   if (node.has("outline") == node.has("polygon")) node.problem("needs either \"polygon\" or \"outline\"");
+  std::vector<std::size_t> side;
   if (node.has("outline")) {
-    std::vector<std::size_t> side;
     const Polygon2 outline = node.polygon("outline", &side);
     const std::vector<double> half = wall_halves(node, side);
     if (outline.size() == half.size()) {
@@ -122,10 +122,13 @@ void SceneParser::parse_room(const json& value, const std::string& path, double 
       }
     }
   } else {
-    room.polygon = node.polygon("polygon");
+    room.polygon = node.polygon("polygon", &side);
   }
   read_room_elements(node, room);
-  if (!room.polygon.empty()) settle_heights(room);
+  if (!room.polygon.empty()) {
+    room.arcs = arcs_of(room.polygon, side);
+    settle_heights(room);
+  }
   if (!room_by_name_.emplace(room.name, static_cast<int>(scene_.rooms.size())).second) {
     node.problem("a second room named \"" + shown(room.name) + "\"",
                  "room names are unique in the whole scene");

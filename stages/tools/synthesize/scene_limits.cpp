@@ -41,6 +41,14 @@ class Checker {
     items("windows", scene_.windows.size());
     items("furniture", scene_.furniture.size());
     items("shafts", scene_.shafts.size());
+    std::size_t columns = 0;
+    std::size_t niches = 0;
+    for (const SceneRoom& room : scene_.rooms) {
+      columns += room.columns.size();
+      niches += room.niches.size();
+    }
+    items("columns", columns);
+    items("niches", niches);
     items("sampling.stations", scene_.sampling.stations.size());
     const double each =
         static_cast<double>(scene_.rooms.size() + scene_.doors.size() + scene_.windows.size());
@@ -56,6 +64,7 @@ class Checker {
     for (const SceneShaft& shaft : scene_.shafts) corners += shaft.polygon.size();
     for (const SceneRoom& room : scene_.rooms) {
       corners += room.polygon.size();
+      for (const SceneColumn& column : room.columns) corners += column.polygon.size();
       if (room.polygon.empty()) continue;
       Vec2 lo = room.polygon[0];
       Vec2 hi = lo;

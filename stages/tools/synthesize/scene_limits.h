@@ -14,11 +14,13 @@ namespace roomcut::synthesize {
 namespace scene_limits {
 inline constexpr std::size_t kCorners = 2000;       ///< of one polygon, arcs as chords
 inline constexpr std::size_t kAllCorners = 100000;  ///< of all rooms and shafts
-inline constexpr std::size_t kItems = 10000;        ///< rooms; doors; windows; furniture; shafts; stations
-inline constexpr double kCopies = 100000;           ///< rooms, doors and windows of all copies together
-inline constexpr double kRoom_m2 = 20000;           ///< the box around one room's plan
-inline constexpr double kAllRooms_m2 = 1e6;         ///< of all rooms, without copies
-inline constexpr double kRoomClutter = 2000;        ///< random furniture of one room
+inline constexpr std::size_t kItems =
+    10000;  ///< rooms; doors; windows; furniture; shafts; stations; columns; niches
+inline constexpr std::size_t kSlopes = 32;    ///< of one room: each is cut with each
+inline constexpr double kCopies = 100000;     ///< rooms, doors and windows of all copies together
+inline constexpr double kRoom_m2 = 20000;     ///< the box around one room's plan
+inline constexpr double kAllRooms_m2 = 1e6;   ///< of all rooms, without copies
+inline constexpr double kRoomClutter = 2000;  ///< random furniture of one room
 inline constexpr double kAllClutter = 50000;
 inline constexpr double kPatches = 50000;     ///< round holes
 inline constexpr double kLayers = 2e7;        ///< different heights times rooms and openings

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "common/artefact/json_values.h"
+#include "stages/tools/synthesize/column.h"
 #include "stages/tools/synthesize/plan.h"
 #include "stages/tools/synthesize/scene_limits.h"
 
@@ -39,13 +40,14 @@ void append_arc(const json& arc, Polygon2& corners) {
     throw std::invalid_argument(R"(an arc is {"through": [x, y], "to": [x, y], "segments": n})");
   }
   const json segments = arc.value("segments", json(8));
-  if (!segments.is_number_integer() || segments < 1 || segments > 1000) {
-    throw std::invalid_argument("an arc has 1 … 1000 segments");
+  if (!segments.is_number_integer() || segments < 0 || segments > 1000) {
+    throw std::invalid_argument("an arc has 1 … 1000 segments, or 0 for as many as it needs to be smooth");
   }
-  for (const Vec2& p :
-       arc_points(corners.back(), to_point(arc["through"]), to_point(arc["to"]), segments.get<int>())) {
-    corners.push_back(p);
-  }
+  const Vec2 from = corners.back();
+  const Vec2 through = to_point(arc["through"]);
+  const Vec2 to = to_point(arc["to"]);
+  const int chords = segments.get<int>() > 0 ? segments.get<int>() : smooth_chords(from, through, to);
+  for (const Vec2& p : arc_points(from, through, to, chords)) corners.push_back(p);
 }
 
 /// Drops a last corner that repeats the first, and turns the polygon counter-clockwise.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -26,18 +27,19 @@ json point(const Vec3& p) {
 
 /// Of the room alone, without doorways and niches.
 double room_volume(const SceneRoom& room) {
-  if (room.slopes.empty() && room.columns.empty()) {
+  if (room.slopes.empty() && room.columns.empty() && room.niches.empty()) {
     return doubled_area(room.polygon) / 2 * (room.ceiling - room.floor);
   }
   Scene alone;
   alone.rooms.push_back(room);
-  alone.rooms[0].niches.clear();
+  std::erase_if(alone.rooms[0].niches, [](const SceneNiche& niche) { return niche.depth > 0; });
   return volume(make_truth(alone, place(alone)));
 }
 
 double room_area(const SceneRoom& room) {
   double area = doubled_area(room.polygon) / 2;
   for (const SceneColumn& column : room.columns) area -= doubled_area(column.polygon) / 2;
+  for (const SceneNiche& niche : room.niches) area += std::min(niche.depth, 0.0) * niche.width;
   return area;
 }
 
@@ -62,10 +64,15 @@ class TruthTables {
            {"room", room < 0 ? json(nullptr) : json(first_room_ + static_cast<std::uint64_t>(room))}});
     }
     for (const Wall& wall : walls_) add_wall(wall);
+    for (std::size_t i = 0; i < scene_.rooms.size(); ++i) {
+      add_columns(i);
+      add_arcs(i);
+    }
+    for (const PlacedNiche& niche : building_.niches) add_niche(niche);
   }
 
   json rooms = json::array(), doors = json::array(), windows = json::array(), stations = json::array(),
-       walls = json::array();
+       walls = json::array(), columns = json::array(), arcs = json::array(), niches = json::array();
 
  private:
   Vec2 moved(const Vec2& p) const { return p + offset_.head<2>(); }
@@ -73,8 +80,6 @@ class TruthTables {
   void add_rooms() {
     for (std::size_t i = 0; i < scene_.rooms.size(); ++i) {
       const SceneRoom& room = scene_.rooms[i];
-      json polygon = json::array();
-      for (const Vec2& p : room.polygon) polygon.push_back(point(moved(p)));
       const Vec2 inside = innermost_point(room.polygon);
       const double middle = 0.5 * (floor_at(room, inside) + ceiling_at(room, inside));
       rooms.push_back({{"id", first_room_ + i},
@@ -87,8 +92,52 @@ class TruthTables {
                        {"volume", rounded(room_volume(room))},
                        {"center", point(Vec3(Vec3(inside.x(), inside.y(), middle) + offset_))},
                        {"scanned", room.scanned},
-                       {"polygon", polygon}});
+                       {"polygon", moved(room.polygon)}});
     }
+  }
+
+  json moved(const Polygon2& polygon) const {
+    json corners = json::array();
+    for (const Vec2& p : polygon) corners.push_back(point(moved(p)));
+    return corners;
+  }
+
+  void add_columns(std::size_t index) {
+    const SceneRoom& room = scene_.rooms[index];
+    for (const SceneColumn& column : room.columns) {
+      columns.push_back({{"room", first_room_ + index},
+                         {"shape", column.round ? "round" : "rectangular"},
+                         {"center", point(moved(column.centre))},
+                         {"width", rounded(column.size_x)},
+                         {"depth", rounded(column.size_y)},
+                         {"polygon", moved(column.polygon)},
+                         {"z0", rounded(floor_at(room, column.centre) + offset_.z())},
+                         {"z1", rounded(ceiling_at(room, column.centre) + offset_.z())}});
+    }
+  }
+
+  void add_arcs(std::size_t index) {
+    const SceneRoom& room = scene_.rooms[index];
+    for (const SceneArc& arc : room.arcs) {
+      arcs.push_back({{"room", first_room_ + index},
+                      {"center", point(moved(arc.centre))},
+                      {"radius", rounded(arc.radius)},
+                      {"from", point(moved(arc.from))},
+                      {"to", point(moved(arc.to))},
+                      {"bulges", arc.bulges},
+                      {"z0", rounded(room.floor + offset_.z())},
+                      {"z1", rounded(room.ceiling + offset_.z())}});
+    }
+  }
+
+  void add_niche(const PlacedNiche& niche) {
+    niches.push_back({{"room", first_room_ + static_cast<std::uint64_t>(niche.room)},
+                      {"pilaster", niche.solid},
+                      {"width", rounded(niche.width)},
+                      {"depth", rounded(niche.depth)},
+                      {"polygon", moved(niche.polygon)},
+                      {"z0", rounded(niche.z0 + offset_.z())},
+                      {"z1", rounded(niche.z1 + offset_.z())}});
   }
 
   json opening(const WallOpening& o) const {
@@ -142,6 +191,9 @@ json truth_json(const Scene& scene, const Building& building, const TriangleMesh
           {"doors", tables.doors},
           {"windows", tables.windows},
           {"walls", tables.walls},
+          {"columns", tables.columns},
+          {"niches", tables.niches},
+          {"arcs", tables.arcs},
           {"stations", scene.sampling.kind == SamplingKind::kTripod ? tables.stations : json::array()}};
 }
 

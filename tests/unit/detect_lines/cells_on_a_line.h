@@ -18,6 +18,7 @@ inline void add_cells(WallCells& cells, const Line2& line, double t0, double t1,
     cells.y.push_back(static_cast<float>(p.y()));
     cells.weight_m.push_back(0.04F);
     cells.area_m2.push_back(0.02F);
+    cells.coverage.push_back(1);
     cells.theta.push_back(static_cast<float>(line.theta));
     cells.offset_m.push_back(0);
     cells.boundary.push_back(1);

@@ -69,11 +69,26 @@ int spurious(const SyntheticCloud& cloud, const WallLines& found) {
   return count;
 }
 
-TEST(DetectLines, ContoursOfARoofAreLinesOfItsSlicesOnly) {
+TEST(DetectLines, ARoofThatIsPlanesGivesNoLines) {
   SyntheticCloud cloud(0.004, 600);
   cloud.horizontal({0, 0}, {8, 9}, 0.0);
   cloud.surface(
       {0, 0}, {8, 9}, [](const Vec2& p) { return 6.5 - std::abs(p.y() - 4.5); }, SurfaceClass::kSloped);
+  for (const double y : {0.0, 9.0}) cloud.wall({0, y}, {8, y}, 0, 2);
+  const Slices slices = slices_of(cloud);
+  EXPECT_EQ(slices.planes.size(), 2U);
+  for (const WallLine& line : detect_lines(slices, {}).lines.lines) {
+    EXPECT_LT(std::min(std::abs(line.centre().y()), std::abs(line.centre().y() - 9)), 0.02);
+  }
+}
+
+TEST(DetectLines, ContoursOfARoofThatNoPlaneExplainsAreLinesOfItsSlicesOnly) {
+  SyntheticCloud cloud(0.004, 600);
+  cloud.horizontal({0, 0}, {8, 9}, 0.0);
+  const auto corrugated = [](const Vec2& p) {
+    return 6.5 - std::abs(p.y() - 4.5) + 0.15 * std::sin(4 * std::numbers::pi * p.y());
+  };
+  cloud.surface({0, 0}, {8, 9}, corrugated, SurfaceClass::kSloped);
   for (const double y : {0.0, 9.0}) cloud.wall({0, y}, {8, y}, 0, 2);
   const Slices slices = slices_of(cloud);
   std::size_t contours = 0;
@@ -87,7 +102,7 @@ TEST(DetectLines, ContoursOfARoofAreLinesOfItsSlicesOnly) {
     ++contours;
     for (const int k : *line.levels) {
       const double roof =
-          6.5 - std::abs(y - 4.5);  // in the slice: its foot in the upper end of the lowest one
+          corrugated({0, y});  // in the slice: its foot in the upper end of the lowest one
       EXPECT_GT(roof, slices.levels[static_cast<std::size_t>(k)].z - 0.15);
       EXPECT_LT(roof, slices.levels[static_cast<std::size_t>(k) + 1].z + 0.15);
     }

@@ -93,6 +93,25 @@ TEST_F(EvaluateProgram, RoomsOfATruthJsonKeepTheirNames) {
   EXPECT_NEAR(list.at(1).at("volume_m3").get<double>(), 3.9 * 3 * 2.5, 0.5);
 }
 
+TEST_F(EvaluateProgram, ColumnsAndNichesAreReadFromTheTruthJson) {
+  write(
+      "truth.json",
+      R"({"rooms": [{"name": "hall", "floor": 0, "ceiling": 2.5, "polygon": [[4.1, 0], [8, 0], [8, 3], [4.1, 3]]}],
+    "columns": [{"polygon": [[4.02, 1], [4.08, 1], [4.08, 2], [4.02, 2]], "width": 0.06, "depth": 1, "z0": 0, "z1": 2.5},
+                {"polygon": [[5, 1], [6, 1], [6, 2], [5, 2]], "width": 1, "depth": 1, "z0": 0, "z1": 2.5}],
+    "niches": [{"polygon": [[7.8, 0], [8, 0], [8, 3], [7.8, 3]], "width": 3, "depth": 0.2, "z0": 0, "z1": 2.5, "pilaster": false}]})");
+  ASSERT_EQ(run("--truth truth.off --truth-json truth.json"), 0) << read("stderr");
+  const Json scores = read_json_artefact(work_ / "evaluate/scores.json", artefacts::kScores);
+  EXPECT_EQ(scores.at("columns").at("truth").get<int>(), 2);
+  EXPECT_EQ(scores.at("columns").at("found").get<int>(),
+            1);  // the wall between the rooms; the other is empty
+  EXPECT_NEAR(scores.at("columns").at("list").at(0).at("size_m").get<double>(), 0.06, 1e-9);
+  EXPECT_NEAR(scores.at("niches").at("area_m2").get<double>(), 3 * 2.5 + 2 * 0.2 * (3 + 2.5), 0.3);
+  EXPECT_DOUBLE_EQ(scores.at("niches").at("within_2cm").get<double>(), 1);
+  EXPECT_NEAR(scores.at("rooms").at("list").at(0).at("ceiling_off_m").get<double>(), 0, 1e-9);
+  EXPECT_NE(read("stdout").find("1 of 2 found, 0 false"), std::string::npos) << read("stdout");
+}
+
 TEST_F(EvaluateProgram, IgnoredBoxesAndRoomsThatNobodyEnteredAreReadFromTheTruthJson) {
   write("truth.json", R"({"rooms": [
     {"name": "kitchen", "floor": 0, "ceiling": 2.5, "center": [1, 1, 1], "scanned": false},

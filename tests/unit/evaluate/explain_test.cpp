@@ -78,7 +78,7 @@ CellComplex grid(const Values& xs, const Values& ys, const Values& zs) {
 
 /// Cells whose middle lies in one of the boxes are empty.
 LabelledCells labelled(const CellComplex& complex, const std::vector<std::array<Vec3, 2>>& empty) {
-  LabelledCells cells{complex, std::vector<std::uint8_t>(complex.cells(), 0), std::nullopt, {}};
+  LabelledCells cells{complex, std::vector<std::uint8_t>(complex.cells(), 0), {}, std::nullopt, {}};
   for (std::size_t cell = 0; cell < complex.cells(); ++cell) {
     const Vec3 p = complex.centre(cell);
     for (const auto& [lo, hi] : empty) {
@@ -119,6 +119,21 @@ TEST(Explain, NothingIsWrongWhenCellsAndLabelsAreTheTruths) {
   EXPECT_NEAR(e.rooms[0].own.volume_m3, 15, 1e-9);
   EXPECT_NEAR(e.rooms[0].own_m3, e.rooms[0].volume_m3, 1e-9);
   EXPECT_TRUE(e.lost_walls.empty());
+}
+
+TEST(Explain, CellsEndAtTheSurfacesThatStandInPlaceOfTheirLevels) {
+  // The level of the ceiling lies 12 cm too high, its surface where the ceiling is.
+  const CellComplex complex = grid(kX, kY, {-0.5, 0, 2.62, 3});
+  LabelledCells cells = labelled(complex, {kRoomBox});
+  EXPECT_NEAR(explained(kRoom, kRoom, cells).bound_iou, 2.5 / 2.62, 0.002);
+  cells.surfaces.of_face.assign(complex.faces() * complex.levels.size(), -1);
+  for (std::size_t face = 0; face < complex.faces(); ++face) {
+    if (is_empty(cells.label, complex.cell(face, 1))) cells.surfaces.of_face[complex.level_face(face, 2)] = 0;
+  }
+  cells.surfaces.surfaces = {{{0.1, 0}, 2.25, 0, 6, 1, -1}};  // 2.5 m at the middle, x = 2.5
+  EXPECT_LT(explained(kRoom, kRoom, cells).bound_iou, 0.98) << "a plane that the truth's ceiling is not";
+  cells.surfaces.surfaces = {{{0, 0}, 2.5, 0, 6, 1, -1}};
+  EXPECT_NEAR(explained(kRoom, kRoom, cells).bound_iou, 1, 1e-9);
 }
 
 TEST(Explain, ARoomLabelledSolidIsLostToLabelsAndItsEvidenceIsSummed) {

@@ -52,6 +52,14 @@ TEST(SurfaceScores, AWallThatIsOffByMoreThanTwoCentimetresDoesNotMatch) {
   EXPECT_NEAR(*matched_share(truth, SlopeClass::kWall), 48.0 / 60, 2e-3);
 }
 
+TEST(SurfaceScores, AFloorThatIsOffByMoreThanFiveMillimetresIsFollowedCloselyButNotFinely) {
+  const SurfaceDistances near = from_to(kTruth, box({0, 0, 0.0049}, {6, 4, 3}));
+  EXPECT_NEAR(*matched_share(near, SlopeClass::kHorizontal, Match::kFine), 1, 1e-12);
+  const SurfaceDistances off = from_to(kTruth, box({0, 0, 0.0051}, {6, 4, 3}));
+  EXPECT_NEAR(*matched_share(off, SlopeClass::kHorizontal, Match::kFine), 0.5, 5e-3);
+  EXPECT_NEAR(*matched_share(off, SlopeClass::kHorizontal), 1, 1e-12);
+}
+
 TEST(SurfaceScores, AWallThatIsOffByTwoToFourCentimetresIsFollowedLoosely) {
   const SurfaceDistances off = from_to(kTruth, box({0.039, 0, 0}, {6, 4, 3}));
   EXPECT_NEAR(*matched_share(off, SlopeClass::kWall), 48.0 / 60, 5e-3);

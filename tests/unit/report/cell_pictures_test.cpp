@@ -76,6 +76,16 @@ TEST(CellPictures, an_opening_is_drawn_in_the_layers_that_it_reaches) {
   EXPECT_EQ(count(openings_of(opening), "o0001"), 0U);
 }
 
+TEST(CellPictures, surfaces_are_drawn_by_their_distance_from_the_level) {
+  LevelSurfaces surfaces;
+  surfaces.surfaces = {{{0, 0}, 2.013, 0.0002, 1, 500, -1}};
+  surfaces.of_face = {-1, -1, 0, -1};
+  const Picture picture = draw_surfaces("fit_surfaces", two_squares(), surfaces, 1);
+  EXPECT_EQ(picture.file, "fit_surfaces_1.svg");
+  EXPECT_EQ(count(picture.bytes, "<polygon"), 2U);
+  EXPECT_EQ(count(picture.bytes, "2.0130 m, +13.0 mm from its level; sigma 0.2 mm"), 1U) << picture.bytes;
+}
+
 TEST(CellPictures, the_partition_names_its_lines) {
   const Picture picture = draw_partition("final_partition", two_squares());
   EXPECT_EQ(picture.file, "final_partition.svg");

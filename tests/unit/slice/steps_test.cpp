@@ -10,10 +10,11 @@ namespace roomcut::slice {
 namespace {
 
 /// A plane that rises from `low` to `high` along x.
-SlopedPlane plane_between(double low, double high) {
+SlopedPlane plane_between(double low, double high, double area_m2 = 40) {
   SlopedPlane plane;
   plane.gradient = {(high - low) / 4, 0};
   plane.c = low;
+  plane.area_m2 = area_m2;
   plane.outline = {{0, 0}, {4, 0}, {4, 3}, {0, 3}};
   return plane;
 }
@@ -43,6 +44,11 @@ TEST(Steps, CutASlopeIntoEqualPartsWithAStepInTheMiddleOfEach) {
 TEST(Steps, StandInEveryGapBetweenLevelsThatAPlanePasses) {
   expect_near(steps({0, 1.2, 3}, {plane_between(0.9, 1.5)}), {1.05, 1.35});
   expect_near(steps({0, 1.2, 3}, {plane_between(0.9, 1.25)}), {1.05});  // 5 cm above the level are none
+}
+
+TEST(Steps, AreTwiceAsHighWhereLittleSlopes) {
+  expect_near(steps({0, 3}, {plane_between(1, 2.2, 3)}), {1.3, 1.9});
+  EXPECT_EQ(steps({0, 3}, {plane_between(1, 2.2, 6), plane_between(1, 2.2, 6)}).size(), 4U);
 }
 
 TEST(Steps, PlanesOfEqualHeightsShareThem) {

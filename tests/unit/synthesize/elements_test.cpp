@@ -8,6 +8,7 @@
 #include "common/mesh/mesh_check.h"
 #include "stages/tools/synthesize/families.h"
 #include "stages/tools/synthesize/room_heights.h"
+#include "stages/tools/synthesize/synthesize_io.h"
 #include "tests/unit/synthesize/test_scenes.h"
 
 namespace roomcut::synthesize {
@@ -142,6 +143,100 @@ TEST(Elements, WhatDoesNotFitUnderASlopeIsRefused) {
             std::string::npos);
   EXPECT_NE(complaint(R"({"columns": [{"at": [9, 9], "width": 0.3}]})", "{}").find("outside"),
             std::string::npos);
+}
+
+/// Of one room with `outline` (middle lines of walls of 20 cm) or `polygon`.
+std::vector<SceneArc> arcs(const char* key, const char* corners) {
+  json room = {{"name", "a"}, {"wall", 0.2}, {key, json::parse(corners)}};
+  if (std::string(key) == "polygon") room.erase("wall");
+  return scene_from_json({{"storeys", {{{"floor", 0}, {"ceiling", 3}, {"rooms", {room}}}}}}, "s")
+      .rooms[0]
+      .arcs;
+}
+
+TEST(Elements, ArcsOfAPolygonAreKnownByCentreAndRadius) {
+  const auto bay =
+      arcs("polygon", R"([[0,0],{"arc":{"through":[2,-2],"to":[4,0],"segments":0}},[4,3],[0,3]])");
+  ASSERT_EQ(bay.size(), 1U);
+  EXPECT_NEAR((bay[0].centre - Vec2(2, 0)).norm(), 0, 1e-9);
+  EXPECT_NEAR(bay[0].radius, 2, 1e-9);
+  EXPECT_TRUE(bay[0].bulges);
+  EXPECT_NEAR((bay[0].from - Vec2(0, 0)).norm() + (bay[0].to - Vec2(4, 0)).norm(), 0, 1e-9);
+  const auto dent =
+      arcs("polygon", R"([[0,0],{"arc":{"through":[2,1],"to":[4,0],"segments":12}},[4,3],[0,3]])");
+  ASSERT_EQ(dent.size(), 1U);
+  EXPECT_NEAR(dent[0].radius, 2.5, 1e-9);
+  EXPECT_FALSE(dent[0].bulges);
+  EXPECT_NEAR((dent[0].from - Vec2(4, 0)).norm(), 0, 1e-9);
+  EXPECT_TRUE(arcs("polygon", "[[0,0],[4,0],[4,3],[0,3]]").empty());
+}
+
+TEST(Elements, TwoHalvesOfACircleAreOneArcWhateverTheDirection) {
+  for (
+      const char* corners :
+      {R"([[2,0],{"arc":{"through":[0,2],"to":[-2,0],"segments":20}},{"arc":{"through":[0,-2],"to":[2,0],"segments":20}}])",
+       R"([[2,0],{"arc":{"through":[0,-2],"to":[-2,0],"segments":20}},{"arc":{"through":[0,2],"to":[2,0],"segments":20}}])"}) {
+    const auto circle = arcs("polygon", corners);
+    ASSERT_EQ(circle.size(), 1U);
+    EXPECT_NEAR(circle[0].radius, 2, 1e-9);
+    EXPECT_NEAR((circle[0].from - circle[0].to).norm(), 0, 1e-9);
+  }
+}
+
+TEST(Elements, AWallAlongAnArcLeavesAConcentricRoom) {
+  const auto inner =
+      arcs("outline", R"([[2,0],{"arc":{"through":[0,2],"to":[-2,0],"segments":0}},[-2,-2],[2,-2]])");
+  ASSERT_EQ(inner.size(), 1U);
+  EXPECT_NEAR(inner[0].centre.norm(), 0, 1e-6);
+  EXPECT_NEAR(inner[0].radius, 1.9, 2e-4);  // the chords' distance is exact, their corners' by the sagitta
+}
+
+TEST(Elements, RandomArcsLieOnTheirCirclesAndAreSmooth) {
+  std::size_t bulging = 0;
+  std::size_t hollow = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    Scene scene;
+    FamilySpec spec;
+    spec.seed = seed;
+    spec.elements = {"arcs"};
+    add_random_building(spec, scene);
+    for (const SceneRoom& room : scene.rooms) {
+      for (const SceneArc& arc : room.arcs) {
+        (arc.bulges ? bulging : hollow) += 1;
+        EXPECT_NEAR((arc.from - arc.centre).norm(), arc.radius, 1e-6);
+        EXPECT_NEAR((arc.to - arc.centre).norm(), arc.radius, 1e-6);
+        std::size_t on = 0;
+        for (std::size_t i = 0; i < room.polygon.size(); ++i) {
+          const Vec2 middle = 0.5 * (room.polygon[i] + room.polygon[(i + 1) % room.polygon.size()]);
+          on += std::abs((middle - arc.centre).norm() - arc.radius) < 3e-4 ? 1 : 0;
+        }
+        EXPECT_GT(on, 10U) << room.name;
+      }
+    }
+  }
+  EXPECT_GT(bulging, 20U);
+  EXPECT_GT(hollow, 3U);
+}
+
+TEST(Elements, TheTruthNamesColumnsNichesAndArcsOfEveryCopy) {
+  Scene scene = hall(R"({"columns": [{"at": [2, 2], "width": 0.4, "shape": "round"}],
+    "niches": [{"at": [2, 0], "width": 0.5, "depth": 0.2}, {"at": [6, 0], "width": 0.6, "depth": -0.1}]})",
+                     3);
+  scene.rooms[0].arcs.push_back({{1, 2}, 3, {4, 2}, {1, 5}, true});
+  scene.repeat.x = 2;
+  const Building building = place(scene);
+  const json truth = truth_json(scene, building, make_truth(scene, building), 0);
+  ASSERT_EQ(truth["columns"].size(), 2U);
+  EXPECT_EQ(truth["columns"][0]["shape"], "round");
+  EXPECT_NEAR(truth["columns"][1]["center"][0].get<double>() - 2, 8.4, 1e-6);  // the gap is 40 cm
+  EXPECT_EQ(truth["columns"][1]["room"], 1);
+  ASSERT_EQ(truth["niches"].size(), 4U);
+  EXPECT_FALSE(truth["niches"][0]["pilaster"].get<bool>());
+  EXPECT_TRUE(truth["niches"][1]["pilaster"].get<bool>());
+  EXPECT_NEAR(truth["niches"][1]["depth"].get<double>(), 0.1, 1e-9);
+  ASSERT_EQ(truth["arcs"].size(), 2U);
+  EXPECT_NEAR(truth["arcs"][0]["radius"].get<double>(), 3, 1e-9);
+  EXPECT_NEAR(truth["rooms"][0]["volume"].get<double>(), 3 * (48 - kPi * 0.04 - 0.06), 1e-5);
 }
 
 TEST(Elements, HeightsDifferByWholeCentimetres) {

@@ -95,6 +95,16 @@ TEST(SceneLimits, ThousandsOfCornersAndHeights) {
   expect_refused(scene, "rooms: 10001");
 }
 
+TEST(SceneLimits, SlopesAndColumnsWithoutEnd) {
+  json scene = one_room(20, 20);
+  json& room = scene["storeys"][0]["rooms"][0];
+  for (int i = 0; i < 40; ++i) room["slopes"].push_back({{"at", {0, 0}}, {"z", 2.9}, {"pitch_deg", i}});
+  expect_refused(scene, "slopes");
+  room["slopes"].clear();
+  for (int i = 0; i < 10001; ++i) room["columns"].push_back({{"at", {1, 1}}, {"width", 0.2}});
+  expect_refused(scene, "columns");
+}
+
 TEST(SceneLimits, PlansThatCrossWithoutEndAreRefusedBeforeTheyAreCut) {
   json scene = one_room(100, 100);
   json& rooms = scene["storeys"][0]["rooms"];

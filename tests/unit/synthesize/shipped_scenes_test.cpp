@@ -47,8 +47,8 @@ TEST_P(ShippedScene, HasAValidTruthThatFitsItsTables) {
 INSTANTIATE_TEST_SUITE_P(All, ShippedScene, testing::ValuesIn(shipped()),
                          [](const auto& scene) { return scene.param; });
 
-TEST(ShippedScenes, AreAtLeastSix) {
-  EXPECT_GE(shipped().size(), 6U);
+TEST(ShippedScenes, AreAtLeastEight) {
+  EXPECT_GE(shipped().size(), 8U);
 }
 
 std::string scan_digest(const Scene& scene, int threads, std::uint64_t* points) {
