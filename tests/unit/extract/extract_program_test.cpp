@@ -11,6 +11,7 @@
 #include "common/artefact/atomic_file.h"
 #include "common/artefact/json_values.h"
 #include "common/cells/cells_io.h"
+#include "common/cells/surfaces_io.h"
 #include "common/geometry/scan_coordinates.h"
 #include "common/mesh/mesh_check.h"
 #include "common/mesh/mesh_io.h"
@@ -93,6 +94,32 @@ TEST_F(ExtractProgram, WritesAModelThatLiesOnTheScanAndTheSameBytesAgain) {
   fs::remove(work_ / "model.ply");
   ASSERT_EQ(run(), 0);
   EXPECT_EQ(ply_bytes(read_mesh(work_ / "model.ply"), {0, 0, 0}, {}), first);
+}
+
+TEST_F(ExtractProgram, PutsFloorsAndCeilingsAtTheirSurfacesAndRefusesThoseOfOtherCells) {
+  write_inputs(in_the_middle);
+  CellsFile cells = read_cells(work_ / "90_final/cells.h5");
+  LevelSurfaces surfaces;
+  surfaces.surfaces.resize(1);
+  surfaces.surfaces[0].gradient = Vec2(0.1, 0);
+  surfaces.surfaces[0].c = 1.8;  // 2 in the middle, at x = 2
+  surfaces.of_face.assign(cells.complex.levels.size() * cells.complex.faces(), -1);
+  for (std::size_t f = 0; f < cells.complex.faces(); ++f) {
+    surfaces.of_face[cells.complex.level_face(f, 2)] = 0;
+  }
+  const fs::path file = work_ / "92_fit_surfaces/surfaces.h5";
+  write_surfaces(file, surfaces, cells, {});
+  ASSERT_EQ(run(), 0) << errors();
+  EXPECT_NEAR(bounds(read_mesh(work_ / "model.ply")).hi.z(), 52.1, 1e-9);
+  const Json room = read_json_artefact(work_ / "summary.json", artefacts::kSummary).at("rooms").at(0);
+  EXPECT_NEAR(room.at("lowest_ceiling_z_m").get<double>(), 51.9, 1e-9);
+  EXPECT_NEAR(room.at("ceiling_z_m").get<double>(), 52, 1e-9);
+  EXPECT_NEAR(room.at("highest_ceiling_z_m").get<double>(), 52.1, 1e-9);
+  EXPECT_NEAR(room.at("volume_m3").get<double>(), 4, 1e-9);
+  cells.payload_sha256 = "another";
+  write_surfaces(file, surfaces, cells, {});
+  EXPECT_EQ(run(), 3);
+  EXPECT_NE(errors().find("error[A05]"), std::string::npos) << errors();
 }
 
 TEST_F(ExtractProgram, ListsAnUnknownSpaceInTheSummaryAndItsCellsInTheRooms) {
