@@ -8,7 +8,8 @@
 namespace roomcut::detect_lines {
 namespace {
 
-constexpr double kGap_m = 10;  // sides farther apart are no row
+constexpr double kGap_m = 10;     // sides farther apart are no row
+constexpr double kGapSides = 25;  // nor are those farther apart than so many of their lengths
 
 /// Gives sides [begin, end), of one line's direction, their mean, and joins those that follow each other.
 void add_row(std::vector<Side>::iterator begin, std::vector<Side>::iterator end,
@@ -21,7 +22,8 @@ void add_row(std::vector<Side>::iterator begin, std::vector<Side>::iterator end,
   std::sort(begin, end, [](const Side& a, const Side& b) { return a.support.t0 < b.support.t0; });
   const std::size_t first = lines.size();
   for (auto side = begin; side != end; ++side) {
-    const bool joins = lines.size() > first && side->support.t0 - lines.back().support.t1 < kGap_m;
+    const double reach = std::min(kGap_m, kGapSides * (side->support.t1 - side->support.t0));
+    const bool joins = lines.size() > first && side->support.t0 - lines.back().support.t1 < reach;
     if (!joins) {
       lines.push_back(
           {{side->line.theta, weight > 0 ? sum / weight : side->line.d}, side->support, side->column});

@@ -16,8 +16,9 @@ struct Side {
 };
 
 /// Makes lines of sides: those in a row, of the same direction, with offsets that differ by `aligned_m` at
-/// most and with gaps below 10 m, are one line. Beside lines a millimetre apart stand slivers that no later
-/// stage can tell from walls. Strongest first.
+/// most and with gaps of 25 of their lengths and 10 m at most, are one line; farther apart they keep one
+/// offset. Beside lines a millimetre apart stand slivers that no later stage can tell from walls. Strongest
+/// first.
 std::vector<LineCandidate> align_sides(std::vector<Side> sides, double aligned_m);
 
 }  // namespace roomcut::detect_lines

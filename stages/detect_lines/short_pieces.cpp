@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kBeside_m = 0.7;      // from a line
-constexpr double kShortest_m = 0.18;   // between the outermost cells
+constexpr double kShortest_m = 0.14;   // between the outermost cells
 constexpr double kCovered = 0.6;       // share of a row
 constexpr double kReaches = 0.6;       // share of the height
 constexpr double kOther_rad = 0.6;     // a cell of a known direction so far off is not of the row
@@ -23,6 +23,7 @@ constexpr std::int32_t kTogether = 2;  // cells
 constexpr double kSameLine_m = 0.015;  // a row so near a line, in its reach, is on it
 constexpr double kSameLine_rad = 0.03;
 constexpr double kReach_m = 1.5;
+constexpr double kRow_m = 6;  // within this it takes over the line, with an interval of its own
 
 Vec2 position(const WallCells& cells, std::uint32_t i) {
   return {cells.x[i], cells.y[i]};
@@ -114,16 +115,25 @@ class RowSearch {
         if (row.t1 - row.t0 > best.t1 - best.t0) best = row;
       }
       if (best.t1 - best.t0 < kShortest_m) return;
-      std::erase_if(group, [&](std::uint32_t i) {
-        return std::abs(best.line.distance(position(cells_, i))) < half_m_ &&
-               best.line.along(position(cells_, i)) >= best.t0 &&
-               best.line.along(position(cells_, i)) <= best.t1;
-      });
+      const std::size_t before = group.size();
+      const double corner = std::min(rules_.tau_m, 0.25 * (best.t1 - best.t0));  // the next row's as well
+      for (const double kept : {corner, 0.0}) {
+        if (group.size() == before) take_out(best, kept, group);
+      }
       pieces.push_back(std::move(best));
     }
   }
 
  private:
+  /// Takes a row's cells out of the group, but for those so near its ends.
+  void take_out(const WallPiece& row, double ends_m, CellIndices& group) const {
+    std::erase_if(group, [&](std::uint32_t i) {
+      const double t = row.line.along(position(cells_, i));
+      return std::abs(row.line.distance(position(cells_, i))) < half_m_ && t >= row.t0 + ends_m &&
+             t <= row.t1 - ends_m;
+    });
+  }
+
   WallPiece longest_row(const CellIndices& group, double theta) const {
     CellIndices fitting;
     std::map<std::int64_t, double> votes;  // length by offset
@@ -184,19 +194,27 @@ class RowSearch {
   double half_m_;  ///< farthest a cell lies off its row
 };
 
-/// Which of the lines a row lies on, -1 = none.
-int line_under(const WallPiece& row, const std::vector<LineCandidate>& lines) {
+/// Which of the lines, lengthened by `reach_m`, a row lies on; -1 = none.
+int line_under(const WallPiece& row, const std::vector<LineCandidate>& lines, double reach_m) {
   const Vec2 middle = row.line.at(0.5 * (row.t0 + row.t1));
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const LineCandidate& line = lines[k];
     const double t = line.line.along(middle);
     if (angle_between(line.line.theta, row.line.theta) < kSameLine_rad &&
-        std::abs(line.line.distance(middle)) < kSameLine_m && t > line.support.t0 - kReach_m &&
-        t < line.support.t1 + kReach_m) {
+        std::abs(line.line.distance(middle)) < kSameLine_m && t > line.support.t0 - reach_m &&
+        t < line.support.t1 + reach_m) {
       return static_cast<int>(k);
     }
   }
   return -1;
+}
+
+void put_on(const Line2& line, WallPiece& piece) {
+  const auto [t0, t1] =
+      std::minmax({line.along(piece.line.at(piece.t0)), line.along(piece.line.at(piece.t1))});
+  piece.t0 = t0;
+  piece.t1 = t1;
+  piece.line = line;
 }
 
 }  // namespace
@@ -239,7 +257,11 @@ std::vector<WallPiece> short_pieces(const WallCells& cells, const CellIndices& f
     const std::optional<double> theta = direction_beside(cells, group, lines);
     if (theta) search.find(group, *theta, pieces);
   }
-  for (WallPiece& piece : pieces) piece.of = line_under(piece, lines);
+  for (WallPiece& piece : pieces) {
+    piece.of = line_under(piece, lines, kReach_m);
+    const int in_row = line_under(piece, lines, kRow_m);
+    if (in_row >= 0) put_on(lines[static_cast<std::size_t>(in_row)].line, piece);
+  }
   return pieces;
 }
 

@@ -26,6 +26,7 @@ constexpr std::size_t kFewestObservations = 3;
 constexpr LinePrior kUsersPrior{0.02, 1.0 * kDeg};
 constexpr double kLoosePrior_rad = 0.5 * kDeg;  ///< detection is better than that
 constexpr int kMergeRounds = 5;
+constexpr double kShareOfShort = 0.5;  ///< of what a line can carry: the side of a niche of 8 cm is small
 
 bool is_users(const WallLine& line) {
   return line.locked || line.source == LineSource::kEdited || line.source == LineSource::kAdded;
@@ -84,12 +85,17 @@ LineRefiner::LineRefiner(const WallLines& lines, const CellComplex& complex,
   }
   std::vector<bool> active(complex.lines.size(), false);
   bool any_surface = false;
+  double tallest = 0;
+  for (std::size_t layer = 0; layer < complex.layers(); ++layer) {
+    tallest = std::max(tallest, complex.height(layer));
+  }
   for (const WallLine& wall : lines.lines) {
     const auto found = by_id.find(wall.id);
     const std::size_t i = found == by_id.end() ? complex.lines.size() : found->second;
     const double area = i < complex.lines.size() ? s.faces[i].area_m2 : 0;
     any_surface = any_surface || area > 0;
-    if (area < params.min_interface_m2 && !is_users(wall) && !s.one_sided.contains(wall.id)) {
+    const double enough = std::min(params.min_interface_m2, kShareOfShort * wall.length() * tallest);
+    if (area < enough && !is_users(wall) && !s.one_sided.contains(wall.id)) {
       ++s.result.dropped;
       continue;
     }

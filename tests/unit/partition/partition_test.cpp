@@ -59,6 +59,16 @@ TEST(Partition, AnyLinesGiveAValidComplexHoweverTheyLie) {
   }
 }
 
+TEST(Partition, AShortLineCutsNoFartherThanItIsLong) {
+  const auto faces = [](double length) {
+    return partition(box_of({wall("w1", {0, 4}, {10, 4}), wall("w2", {5, 3.4 - length}, {5, 3.4})}), {0, 2.5},
+                     {})
+        .complex.faces();
+  };
+  EXPECT_EQ(faces(0.6), 4U);  // into the upper half, too
+  EXPECT_EQ(faces(0.3), 3U);
+}
+
 TEST(Partition, NumbersOfFacesDoNotDependOnWhereTheBuildingStands) {
   // The bounding box of a turned plan is another one, so lines are compared that end at a quarter turn.
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
