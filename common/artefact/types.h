@@ -23,9 +23,9 @@ inline constexpr ArtefactType kLabels{"labels", 1, 1};
 inline constexpr ArtefactType kSurfaces{"surfaces", 1, 0};
 inline constexpr ArtefactType kRooms{"rooms", 2, 0};
 inline constexpr ArtefactType kSummary{"summary", 1, 3};
-inline constexpr ArtefactType kScores{"scores", 1, 1};
+inline constexpr ArtefactType kScores{"scores", 1, 2};
 inline constexpr ArtefactType kTruthCells{"truth_cells", 1, 0};
-inline constexpr ArtefactType kScene{"scene", 1, 0};
+inline constexpr ArtefactType kScene{"scene", 1, 1};
 }  // namespace artefacts
 
 }  // namespace roomcut
