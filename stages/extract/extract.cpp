@@ -94,7 +94,9 @@ Model extract_model(const CellComplex& complex, const Labels& labels, const std:
   model_labels.label = labels_of_model(labels.label);
   // Storeys and rooms are those of the closed walls; the surface is that with the openings empty.
   OpenableComplex cut = cut_openings(complex, model_labels, openings);
-  LevelSurfaces carried = carry_surfaces(complex, surfaces, cut);
+  LevelSurfaces followed = surfaces;
+  follow_planes(complex, model_labels.label, followed);
+  LevelSurfaces carried = carry_surfaces(complex, followed, cut);
   const EndHeights heights(cut.complex, carried);
   Storeys storeys = find_storeys(cut.complex, cut.labels.label, params.storeys);
   Model model;

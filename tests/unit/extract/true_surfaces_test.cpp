@@ -91,6 +91,19 @@ TEST(TrueSurfaces, TheStairsOfAMonopitchBecomeOnePlane) {
   EXPECT_NEAR(model.rooms[0].highest_ceiling_z, 3, 1e-12);
 }
 
+TEST(TrueSurfaces, AStepWithoutASurfaceFollowsThePlaneBesideIt) {
+  House house({0, 1, 2, 3, 4, 5, 6}, {0, kFloor, 1.25, 1.75, 2.25, 2.75, 4},
+              [](double x) { return 1.25 + 0.5 * std::floor(x - 1); });
+  house.set(false, plane({0.5, 0}, 1, 1),
+            [](const Vec2& p) { return p.x() < 2 || p.x() > 3 || p.y() > 2.5; });
+  EXPECT_GT(house.model().surface.regions.size(), 6U);
+  house.complex.steps = {0, 0, 1, 1, 1, 1, 0};
+  const Model model = house.model();
+  expect_sound(model);
+  EXPECT_EQ(model.surface.regions.size(), 6U);
+  EXPECT_NEAR(model.empty_m3, 18, 1e-12);
+}
+
 House gable(double ridge_off) {
   House house({0, 1, 2, 3, 4, 5, 6}, {0, kFloor, 1.5, 2.5, 4},
               [](double x) { return std::abs(x - 3) < 1 ? 2.5 : 1.5; });

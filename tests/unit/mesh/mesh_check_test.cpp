@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/mesh/self_intersections.h"
 #include "tests/unit/mesh/shapes.h"
 
 namespace roomcut {
@@ -62,6 +63,15 @@ TEST(MeshCheck, OverlappingBoxesIntersectThemselvesAndNestedOnesDoNot) {
   EXPECT_TRUE(check.valid()) << describe_faults(check);
   EXPECT_EQ(check.components, 2);
   EXPECT_NEAR(check.volume_m3, 26, 1e-12);
+}
+
+TEST(MeshCheck, TheTrianglesThatCutOthersAreNamed) {
+  TriangleMesh mesh;  // two that cross, and one apart
+  mesh.vertices = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 1, 1},
+                   {1, 2, 1}, {9, 0, 0}, {9, 1, 0}, {8, 0, 0}};
+  mesh.triangles = {{6, 7, 8}, {0, 1, 2}, {3, 4, 5}};
+  EXPECT_EQ(self_intersecting_triangles(mesh), (std::vector<std::size_t>{1, 2}));
+  EXPECT_TRUE(self_intersecting_triangles(box({0, 0, 0}, {1, 1, 1})).empty());
 }
 
 TEST(MeshCheck, ATriangleWithoutAreaIsReported) {
