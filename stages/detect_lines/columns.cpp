@@ -16,7 +16,7 @@ constexpr double kDegree = kPi / 180;
 constexpr std::int32_t kApart = 2;  // cells nearer than this are one thing
 constexpr std::size_t kFewestCells = 6;
 constexpr double kSmallest_m = 0.15, kLargest_m = 2.0, kThinnest_m = 0.15, kSlimmest = 5;
-constexpr double kReaches = 0.7;      // share of the height below the ceiling
+constexpr double kReaches = 0.75;     // share of the height below the ceiling
 constexpr double kSeen = 0.65;        // share of the outline
 constexpr double kSeenOfMany = 0.35;  // when its size is known from others
 constexpr double kLongestGap = 0.34;  // share of the outline

@@ -299,8 +299,9 @@ DetectLinesResult detect_lines(const Slices& slices, const DetectLinesParams& pa
   WallCells& cells = result.cells;
   if (cells.size() == 0) no_lines(cells, params);
   const Rules rules = derive_rules(slices, cells, params, result.choices);
-  const std::vector<Column> columns =
-      find_columns(cells, {slices.noise_m, heights_of(slices), column_fit(slices)});
+  std::vector<Column> columns;
+  if (params.short_lines)
+    columns = find_columns(cells, {slices.noise_m, heights_of(slices), column_fit(slices)});
   LineSearch search(cells, rules, params);
   result.hough = picture_of(search.votes(), rules);
   for (const Column& column : columns) search.leave_out(column.cells);
@@ -309,7 +310,7 @@ DetectLinesResult detect_lines(const Slices& slices, const DetectLinesParams& pa
   found = merge_near_duplicates(cells, std::move(found), rules.merge, rules.fit);
   result.merged = before - found.size();
   if (found.empty()) no_lines(cells, params);
-  add_short_lines(slices, cells, columns, rules, found);
+  if (params.short_lines) add_short_lines(slices, cells, columns, rules, found);
 
   result.lines.frame = slices.frame;
   result.lines.bbox_min = slices.bbox_min.head<2>();

@@ -16,7 +16,7 @@ using namespace roomcut::refine_lines;
 StageInfo info() {
   StageInfo stage;
   stage.name = "refine_lines";
-  stage.revision = 10;
+  stage.revision = 11;
   stage.summary = "Refines the wall lines that carry a wall in the first cut, on raw points";
   stage.inputs = {{"lines", "Accepted wall lines"},
                   {"cells", "Cell complex of the first pass"},

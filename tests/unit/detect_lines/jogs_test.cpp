@@ -63,6 +63,16 @@ TEST(Jogs, BackAndRevealsOfNichesAndPilastersFromEightTimesTwentyFiveCentimetres
   }
 }
 
+TEST(Jogs, WithoutShortLinesThereIsNone) {
+  SyntheticCloud cloud;
+  room_with_niche(cloud, 3, 3.4, 0.15);
+  DetectLinesParams params;
+  params.short_lines = false;
+  const Slices slices = slice::slice_cloud(cloud.header(), cloud.source(), {}).slices;
+  EXPECT_EQ(detect_lines(slices, params).lines.lines.size(), 4U);
+  EXPECT_EQ(detect_lines(slices, {}).lines.lines.size(), 7U);
+}
+
 TEST(Jogs, WhereAWallJumpsTheRevealIsALine) {
   SyntheticCloud cloud;
   cloud.horizontal({0, 0}, {8, 6}, 0.0);

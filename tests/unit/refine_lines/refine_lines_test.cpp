@@ -101,6 +101,31 @@ TEST_F(RefineLines, TheEndsReachOverTheWholeSurface) {
   EXPECT_NEAR(std::max(south.a.x(), south.b.x()), 9, 0.01);
 }
 
+TEST_F(RefineLines, TheShortSidesOfANicheStayAndAFullLineWithAsLittleSurfaceGoes) {
+  complex_ = grid_complex({-2, 0, 4, 4.4, 9, 11}, {-2, -0.06, 0, 4, 6}, {0, 2.5});
+  label_ = testing::labelled(complex_, [](const Vec2& p, std::size_t) {
+    return (p.x() > 0 && p.x() < 9 && p.y() > 0 && p.y() < 4) ||
+           (p.x() > 4 && p.x() < 4.4 && p.y() > -0.06 && p.y() < 0);
+  });
+  const auto add = [&](const char* id, const Vec2& a, const Vec2& b) {
+    WallLine line;
+    line.id = id;
+    line.a = a;
+    line.b = b;
+    lines_.lines.push_back(line);
+  };
+  lines_.lines.clear();
+  add("x1", {0, 0}, {0, 4});
+  add("x2", {4, -0.06}, {4, 0});
+  add("x3", {4.4, -0.06}, {4.4, 4});
+  add("x4", {9, 0}, {9, 4});
+  add("y2", {0, 0}, {9, 0});
+  add("y3", {0, 4}, {9, 4});
+  const Refinement found = refine();
+  EXPECT_TRUE(has(found.lines, "x2"));
+  EXPECT_FALSE(has(found.lines, "x3"));
+}
+
 TEST_F(RefineLines, ALineWithoutSurfaceIsDroppedUnlessItIsTheUsers) {
   complex_ = grid_complex({-2, 0, 5, 5.06, 7, 9, 11}, {-2, 0, 4, 6}, {0, 2.5});
   label_ = testing::labelled(complex_, [](const Vec2& p, std::size_t) {
