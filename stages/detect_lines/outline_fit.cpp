@@ -84,6 +84,20 @@ Box refitted(const std::vector<std::array<double, 3>>& points, const Box& box, c
   return next;
 }
 
+/// As cost(), of points along and across the box's sides.
+double cost(const std::vector<std::array<double, 3>>& points, const Box& box, double outlier_m) {
+  double sum = 0, weight = 0;
+  for (const auto& [u, v, w] : points) {
+    const double over_u = std::max(box.low[0] - u, u - box.high[0]);
+    const double over_v = std::max(box.low[1] - v, v - box.high[1]);
+    const double d =
+        over_u <= 0 || over_v <= 0 ? std::abs(std::max(over_u, over_v)) : std::hypot(over_u, over_v);
+    sum += w * std::min(d, outlier_m) * std::min(d, outlier_m);
+    weight += w;
+  }
+  return weight > 0 ? sum / weight : outlier_m * outlier_m;
+}
+
 Outline outline_of(const Box& box, double theta) {
   Outline outline;
   outline.theta = theta;
@@ -143,8 +157,7 @@ OutlineFit fit_rectangle(const WallCells& cells, const CellIndices& group, doubl
     std::tie(box.low[axis], box.high[axis]) = trimmed_range(axes[axis]);
   }
   for (int round = 0; round < kRounds; ++round) box = refitted(points, box, rules);
-  const Outline outline = outline_of(box, theta);
-  return {outline, cost(cells, group, outline, rules.outlier_m)};
+  return {outline_of(box, theta), cost(points, box, rules.outlier_m)};
 }
 
 OutlineFit fit_rectangle(const WallCells& cells, const CellIndices& group, const OutlineRules& rules) {
