@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "stages/detect_lines/upward.h"
+
 namespace roomcut::detect_lines {
 namespace {
 
@@ -16,6 +18,8 @@ constexpr double kCorner_m = 0.08;     // a line across so near an end closes it
 constexpr double kSeen = 0.4;          // share of a reveal
 constexpr double kCorners_m = 0.05;    // of its depth that lies in cells of both walls
 constexpr double kSamePlace_m = 0.15;  // reveals nearer than this are one, seen in several slices
+constexpr double kBehind_m = 0.6;  // along what stands before a wall: where the wall is looked for behind it
+constexpr double kGoesOn = 0.4;    // share of that on which the wall is seen
 
 Vec2 position(const WallCells& cells, std::uint32_t i) {
   return {cells.x[i], cells.y[i]};
@@ -37,7 +41,12 @@ class JogSearch {
  public:
   JogSearch(const WallCells& cells, const CellIndices& free, const std::vector<LineCandidate>& lines,
             const PieceRules& rules)
-      : cells_(cells), free_(free), lines_(lines), rules_(rules), ends_m_(std::max(0.1, 3.5 * rules.tau_m)) {
+      : cells_(cells),
+        free_(free),
+        lines_(lines),
+        rules_(rules),
+        upward_(cells, rules.tau_m),
+        ends_m_(std::max(0.1, 3.5 * rules.tau_m)) {
     pieces_ = pieces_of_lines(cells, free, lines, rules);
     short_from_ = pieces_.size();
     for (WallPiece& piece : short_pieces(cells, free, lines, rules)) pieces_.push_back(std::move(piece));
@@ -81,11 +90,40 @@ class JogSearch {
   void add_jog(std::size_t i, std::size_t j, double t) {
     const Vec2 place = pieces_[i].line.at(t);
     const double depth = pieces_[i].line.distance(pieces_[j].line.at(pieces_[j].line.along(place)));
-    if (std::abs(depth) >= kShallowest_m && std::abs(depth) <= kDeepest_m) jogs_.push_back({i, j, t, depth});
+    if (std::abs(depth) < kShallowest_m || std::abs(depth) > kDeepest_m) return;
+    if (!goes_on_behind(i, j, place) && !goes_on_behind(j, i, place)) jogs_.push_back({i, j, t, depth});
   }
 
-  /// A short piece stays when something closes both of its ends.
+  /// Whether the line of one piece is seen beside the other one, too: furniture stands before a wall.
+  bool goes_on_behind(std::size_t wall, std::size_t before, const Vec2& place) const {
+    const WallPiece& of = pieces_[wall];
+    if (of.of < 0) return false;
+    const auto [t0, t1] = along(of.line, pieces_[before]);
+    const double t = of.line.along(place);
+    const bool up = t1 - t > t - t0;
+    const double length = std::min(kBehind_m, (up ? t1 - t : t - t0) - 2 * ends_m_);
+    if (length < rules_.tau_m) return false;
+    const double from = up ? t + ends_m_ : t - ends_m_ - length;
+    return seen_m(of, from, from + length) > kGoesOn * length;
+  }
+
+  /// Length of the interval along a piece's line on which that line was seen in its slice.
+  double seen_m(const WallPiece& of, double from, double to) const {
+    double sum = 0;
+    for (const WallPiece& piece : pieces_) {
+      if (piece.of != of.of || piece.slice != of.slice) continue;
+      const auto [t0, t1] = along(of.line, piece);
+      sum += std::max(0.0, std::min(t1, to) - std::max(t0, from));
+    }
+    return sum;
+  }
+
+  /// A short piece stays when it goes up to the ceiling and something closes both of its ends.
   void drop_open_pieces() {
+    for (std::size_t k = short_from_; k < pieces_.size(); ++k) {
+      const WallPiece& piece = pieces_[k];
+      alive_[k] = upward_.reaches_ceiling(piece.line, piece.t0, piece.t1, piece.slice);
+    }
     for (bool changed = true; changed;) {
       changed = false;
       for (std::size_t k = short_from_; k < pieces_.size(); ++k) {
@@ -149,6 +187,7 @@ class JogSearch {
     const Line2 line = normalised(theta, Line2{theta, 0}.normal().dot(a));
     const auto [t0, t1] = std::minmax({line.along(a), line.along(b)});
     const Vec2 middle = 0.5 * (a + b);
+    if (!upward_.reaches_ceiling(line, t0, t1, from.slice)) return;
     const Side reveal{line, {t0, t1, t1 - t0, between}, {}};
     const auto known = std::find_if(sides.begin(), sides.end(), [&](const Side& side) {
       return angle_between(side.line.theta, line.theta) < kAcross_rad &&
@@ -189,6 +228,7 @@ class JogSearch {
   const CellIndices& free_;
   const std::vector<LineCandidate>& lines_;
   PieceRules rules_;
+  Upward upward_;
   double ends_m_;                  ///< ends so near each other belong together
   std::vector<WallPiece> pieces_;  ///< of lines, then short ones
   std::size_t short_from_ = 0;

@@ -63,6 +63,35 @@ TEST(Jogs, BackAndRevealsOfNichesAndPilastersFromEightTimesTwentyFiveCentimetres
   }
 }
 
+/// A second room beside it whose floor lies 25 cm lower, so that the lowest slice holds nothing but its foot;
+/// its wall at y = 6.2 was not seen from x = 5 to 5.45 m.
+void lower_room(SyntheticCloud& cloud) {
+  cloud.horizontal({0, 6.2}, {8, 10}, -0.25);
+  cloud.horizontal({0, 6.2}, {8, 10}, kHeight_m);
+  cloud.wall({0, 6.2}, {5, 6.2}, -0.25, kHeight_m);
+  cloud.wall({5.45, 6.2}, {8, 6.2}, -0.25, kHeight_m);
+  cloud.wall({8, 6.2}, {8, 10}, -0.25, kHeight_m);
+  cloud.wall({8, 10}, {0, 10}, -0.25, kHeight_m);
+  cloud.wall({0, 10}, {0, 6.2}, -0.25, kHeight_m);
+}
+
+TEST(Jogs, ACupboardOfWhichALowSliceShowsTheFootIsNone) {
+  for (const double height : {2.0, kHeight_m + 0.25}) {  // a cupboard, and a pilaster up to the ceiling
+    SyntheticCloud cloud(0.004, 800);
+    room_with_niche(cloud, 3, 3.4, 0);
+    lower_room(cloud);
+    const double top = height - 0.25;
+    cloud.wall({5, 6.2}, {5, 6.6}, -0.25, top);
+    cloud.wall({5, 6.6}, {5.45, 6.6}, -0.25, top);
+    cloud.wall({5.45, 6.6}, {5.45, 6.2}, -0.25, top);
+    if (top < kHeight_m) cloud.wall({5, 6.2}, {5.45, 6.2}, top, kHeight_m);
+    const std::vector<WallLine> found = lines_of(cloud);
+    const bool pilaster = height > kHeight_m;
+    EXPECT_EQ(has_line(found, {5, 6.2}, {5, 6.6}, 0.02), pilaster) << height;
+    EXPECT_EQ(has_line(found, {5, 6.6}, {5.45, 6.6}, 0.02), pilaster) << height;
+  }
+}
+
 TEST(Jogs, WithoutShortLinesThereIsNone) {
   SyntheticCloud cloud;
   room_with_niche(cloud, 3, 3.4, 0.15);
