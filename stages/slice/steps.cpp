@@ -8,68 +8,12 @@
 #include <map>
 #include <utility>
 
+#include "common/slices/plane_steps.h"
 #include "stages/slice/levels.h"
 #include "stages/slice/plan_mask.h"
 
 namespace roomcut::slice {
 namespace {
-
-constexpr double kPasses_m = 0.08;    ///< a plane that covers less of a gap leaves it alone
-constexpr double kClearance_m = 0.1;  ///< of steps from other levels
-
-using Interval = std::pair<double, double>;
-
-Level step_at(double z) {
-  return {z, z, z, 0, 0, false, true};
-}
-
-/// What the planes cover between two heights, largest plane first.
-std::vector<Interval> covered(const std::vector<SlopedPlane>& planes, double lo, double hi) {
-  std::vector<Interval> intervals;
-  for (const SlopedPlane& plane : planes) {
-    const auto [low, high] = plane.range();
-    const Interval inside{std::max(low, lo), std::min(high, hi)};
-    if (inside.second - inside.first > kPasses_m) intervals.push_back(inside);
-  }
-  return intervals;
-}
-
-/// Intervals that overlap, or nearly, as one; ascending.
-std::vector<Interval> joined(std::vector<Interval> intervals, double near) {
-  std::sort(intervals.begin(), intervals.end());
-  std::vector<Interval> unions;
-  for (const Interval& next : intervals) {
-    if (!unions.empty() && next.first < unions.back().second + near) {
-      unions.back().second = std::max(unions.back().second, next.second);
-    } else {
-      unions.push_back(next);
-    }
-  }
-  return unions;
-}
-
-/// Heights of the steps between two levels.
-std::vector<double> steps_between(const std::vector<SlopedPlane>& planes, double lo, double hi,
-                                  double step_m) {
-  std::vector<double> steps;
-  if (hi - lo < 2 * kClearance_m) return steps;
-  const auto clear = [&](double z) { return std::clamp(z, lo + kClearance_m, hi - kClearance_m); };
-  const std::vector<Interval> intervals = covered(planes, lo, hi);
-  for (const auto& [low, high] : joined(intervals, 0.5 * step_m)) {
-    const auto n = std::max(1L, std::lround((high - low) / step_m));
-    for (long i = 0; i < n; ++i) {
-      const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(n);
-      steps.push_back(clear(low + share * (high - low)));
-    }
-  }
-  for (const auto& [low, high] : intervals) {
-    const auto stands_for_it = [low = low, high = high](double z) {
-      return z > low - 0.5 * kClearance_m && z < high + 0.5 * kClearance_m;
-    };
-    if (std::none_of(steps.begin(), steps.end(), stands_for_it)) steps.push_back(clear(0.5 * (low + high)));
-  }
-  return steps;
-}
 
 /// Sloped area per height bin between two heights, its sum, and that of all upright area; only over the
 /// building and where no level lies above: what looks sloped under a ceiling is edges and furniture.
@@ -125,18 +69,6 @@ std::pair<double, double> bulk(const Slopes& slopes) {
   return {height_of(slopes, 0.01) - on, height_of(slopes, 0.99) + on};
 }
 
-/// Steps of the planes between all pairs of neighbouring levels.
-std::vector<Level> plane_steps(const std::vector<Level>& levels, const std::vector<SlopedPlane>& planes,
-                               double step_m) {
-  std::vector<Level> steps;
-  for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
-    for (const double z : steps_between(planes, levels[k].z, levels[k + 1].z, step_m)) {
-      steps.push_back(step_at(z));
-    }
-  }
-  return steps;
-}
-
 /// Steps of the slopes that no plane explains.
 std::vector<Level> unexplained_steps(const std::vector<Level>& levels, const HeightSurvey& survey,
                                      const std::vector<SurfaceCell>& cells, double step_m) {
@@ -160,7 +92,7 @@ std::vector<Level> unexplained_steps(const std::vector<Level>& levels, const Hei
     for (int i = 0; i < n; ++i) {
       const double z = lo + (i + 0.5) * (hi - lo) / n;
       if (z < levels[k].hi + 0.5 * step_m || z > levels[k + 1].lo - 0.5 * step_m) continue;
-      steps.push_back(step_at(z));
+      steps.push_back(step_level(z));
     }
   }
   return steps;
@@ -170,16 +102,7 @@ std::vector<Level> unexplained_steps(const std::vector<Level>& levels, const Hei
 
 void add_steps(std::vector<Level>& levels, const HeightSurvey& survey, const std::vector<SurfaceCell>& cells,
                const std::vector<SlopedPlane>& planes, double step_m) {
-  const std::vector<Level> unexplained = unexplained_steps(levels, survey, cells, step_m);
-  const std::vector<Level> steps = plane_steps(levels, planes, step_m);
-  levels.insert(levels.end(), steps.begin(), steps.end());
-  const std::size_t known = levels.size();
-  for (const Level& step : unexplained) {
-    const bool clear = std::all_of(levels.begin(), levels.begin() + static_cast<std::ptrdiff_t>(known),
-                                   [&](const Level& l) { return std::abs(l.z - step.z) >= 0.5 * step_m; });
-    if (clear) levels.push_back(step);
-  }
-  std::sort(levels.begin(), levels.end(), [](const Level& a, const Level& b) { return a.z < b.z; });
+  add_steps(levels, planes, unexplained_steps(levels, survey, cells, step_m), step_m);
 }
 
 }  // namespace roomcut::slice
