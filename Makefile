@@ -25,7 +25,7 @@ generator = $$(command -v ninja > /dev/null && echo "-G Ninja")
 quiet_make = env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL
 pipeline = +@sh stages/pipeline.sh
 
-.PHONY: help deps configured build programs pipeline_programs parameters test demo run status verify view edit-lines diff-lines drop-edit layers evaluate compare accuracy ablation accuracy-walls accuracy-weights bench fuzz robustness tidy format ready ready_tools \
+.PHONY: help deps configured build programs pipeline_programs parameters test demo run status verify view edit-lines diff-lines drop-edit edit-planes drop-planes layers evaluate compare accuracy ablation accuracy-walls accuracy-weights bench fuzz robustness tidy format ready ready_tools \
         $(stages) $(stages:%=rerun-%) $(stages:%=clean-%) $(stages:%=plot-%)
 
 help:
@@ -43,6 +43,7 @@ help:
 	'make edit-lines SCAN=…        copy the lines to work/office/edits/wall_lines.geojson, to be edited' \
 	'make layers SCAN=…            for QGIS: where points are in each slice, beside the lines (edit-lines does so too)' \
 	'make diff-lines | drop-edit   what the edit changes | move it aside' \
+	'make edit-planes | drop-planes  the same of sloped floors and ceilings: edits/planes.geojson; move it aside' \
 	'make compare A=… B=…          two work folders side by side: parameters, lines, rooms, models; a page and JSON' \
 	'make report | evaluate TRUTH=truth.off | bench | tidy | format' \
 	'make parameters               after a change of parameters: pipeline.yaml, its JSON Schema, the tables of the READMEs' \
@@ -108,7 +109,7 @@ demo: pipeline_programs
 	  '  report.html             every stage in pictures' '  evaluate/scores.json    how far from the truth (truth.off)' \
 	  'Your own scan: make run SCAN=office.ply'
 
-run status verify view edit-lines diff-lines drop-edit layers evaluate compare: ready
+run status verify view edit-lines diff-lines drop-edit edit-planes drop-planes layers evaluate compare: ready
 	$(pipeline) $@
 
 $(stages): ready

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# usage: pipeline.sh run|status|verify|view|edit-lines|diff-lines|drop-edit|layers|evaluate|compare|plot|clean|rerun [NAME …]
+# usage: pipeline.sh run|status|verify|view|edit-lines|diff-lines|drop-edit|edit-planes|drop-planes|layers|evaluate|compare|plot|clean|rerun [NAME …]
 # One command on one work folder; the Makefile calls it. Reads SCAN, WORK, CONFIG, BUILD, JOBS, UP, UNIT, LEVEL, STATIONS, TRUTH, PORT,
 # QUIET, A, B and TEXT_COLUMNS (COLUMNS= of make) from the environment. Works with any characters in file names: every name is quoted, and Make sees relative names only.
 set -eu
@@ -149,16 +149,34 @@ show_status() {
   echo "$WORK"
   echo "  scan    $SCAN (up $UP, unit $UNIT${TEXT_COLUMNS:+, columns $TEXT_COLUMNS}, level $LEVEL)"
   echo "  config  ${config_path:-${CONFIG:-none}}${config_path:+ (CONFIG= given; CONFIG=none goes back to pipeline.yaml)}"
-  if [ -f edits/wall_lines.geojson ]; then echo "  edit    $WORK/edits/wall_lines.geojson is in force"; fi
+  for edit in wall_lines planes; do
+    if [ -f edits/$edit.geojson ]; then echo "  edit    $WORK/edits/$edit.geojson is in force"; fi
+  done
   pipeline_table | "$BIN/artefact" status --scan "$SCAN"
 }
 
+# The accepted file of that name, to be edited; only where there is none.
+no_edit_yet() { # no_edit_yet NAME COMMAND
+  [ ! -f "edits/$1.geojson" ] || fail "$WORK/edits/$1.geojson: an edit is there already" \
+    "go on with it, or make $2 first (it is moved aside, not deleted)"
+}
+copy_to_edit() { # copy_to_edit FOLDER NAME
+  cp "$1/$2.geojson" "edits/.$2.geojson.new"
+  mv -f "edits/.$2.geojson.new" "edits/$2.geojson"
+}
+
 edit_lines() {
-  cp 40_accept_lines/wall_lines.geojson edits/.wall_lines.geojson.new
-  mv -f edits/.wall_lines.geojson.new edits/wall_lines.geojson
+  copy_to_edit 40_accept_lines wall_lines
   echo "edit this file, one line per wall: $WORK/edits/wall_lines.geojson"
   echo "beneath it, for QGIS: edits/slice_<k>.png, where points are in each slice"
   echo "then: make diff-lines to see what changes, make run to apply it, make drop-edit to go back"
+}
+
+edit_planes() {
+  copy_to_edit 45_accept_planes planes
+  echo "edit this file, one polygon per sloped floor or ceiling: $WORK/edits/planes.geojson"
+  echo "its numbers: pitch_deg, uphill_deg (where it rises to, counter-clockwise from x), height_m (at its middle)"
+  echo "then: make run to apply it, make drop-planes to go back"
 }
 
 # The evidence beneath the lines, for QGIS: rasters that say where they lie, beside the file that is edited.
@@ -187,16 +205,16 @@ plot() {
   rm -f stamps/.pictures
 }
 
-drop_edit() {
-  if [ ! -f edits/wall_lines.geojson ]; then
+drop_edit() { # drop_edit NAME WHAT
+  if [ ! -f "edits/$1.geojson" ]; then
     echo "there is no edit in $WORK/edits"
     return
   fi
   mkdir -p edits/old
   n=1
-  while [ -e "edits/old/wall_lines.$n.geojson" ]; do n=$((n + 1)); done
-  mv edits/wall_lines.geojson "edits/old/wall_lines.$n.geojson"
-  echo "the edit lies now in $WORK/edits/old/wall_lines.$n.geojson; make run goes back to the detected lines"
+  while [ -e "edits/old/$1.$n.geojson" ]; do n=$((n + 1)); done
+  mv "edits/$1.geojson" "edits/old/$1.$n.geojson"
+  echo "the edit lies now in $WORK/edits/old/$1.$n.geojson; make run goes back to the detected $2"
 }
 
 # Serves the page until Ctrl-C, without the lock: what the page asks for is another run of this script.
@@ -256,7 +274,7 @@ fi
 find_work_folder
 for name in "$@"; do known_stage "$name"; done
 case $command in
-  clean | drop-edit | verify) ;;
+  clean | drop-edit | drop-planes | verify) ;;
   *) check_scan ;;
 esac
 check_work_folder
@@ -264,7 +282,7 @@ case $command in
   view) view ;;
   status) if [ -d "$WORK" ]; then enter_to_read; fi ;;
   verify) enter_to_read ;;
-  clean | drop-edit)
+  clean | drop-edit | drop-planes)
     [ -d "$WORK" ] || fail "$WORK: there is no such work folder" "make run SCAN=office.ply makes one"
     take_lock ;;
   *) take_lock ;;
@@ -280,12 +298,16 @@ case $command in
     again=$1
     rules "$1" $(stamped) ;;
   edit-lines)
-    [ ! -f edits/wall_lines.geojson ] || fail "$WORK/edits/wall_lines.geojson: an edit is there already" \
-      "go on with it, or make drop-edit first (it is moved aside, not deleted)"
+    no_edit_yet wall_lines drop-edit
     refresh
     rules accept_lines
     draw_layers
     edit_lines ;;
+  edit-planes)
+    no_edit_yet planes drop-planes
+    refresh
+    rules accept_planes
+    edit_planes ;;
   layers)
     refresh
     rules slice
@@ -295,7 +317,8 @@ case $command in
     refresh
     rules detect_lines
     "$BIN/diff_lines" --work . ;;
-  drop-edit) drop_edit ;;
+  drop-edit) drop_edit wall_lines lines ;;
+  drop-planes) drop_edit planes planes ;;
   status) show_status ;;
   verify) "$BIN/verify" --schemas "$root/schemas" --scan "$SCAN" $(stamped | sed 's|^|stamps/|') ;;
   clean) clean "$1" ;;

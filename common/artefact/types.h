@@ -16,6 +16,7 @@ inline constexpr ArtefactType kCloud{"cloud", 1, 1};
 inline constexpr ArtefactType kSlices{"slices", 1, 2};
 inline constexpr ArtefactType kHough{"hough", 1, 0};
 inline constexpr ArtefactType kWallLines{"wall_lines", 1, 1};
+inline constexpr ArtefactType kPlanes{"planes", 1, 0};
 inline constexpr ArtefactType kCells{"cells", 1, 1};
 inline constexpr ArtefactType kWeights{"weights", 1, 1};
 inline constexpr ArtefactType kDataTerms{"data_terms", 3, 0};

@@ -3,6 +3,7 @@
 
 #include "common/artefact/h5.h"
 #include "common/openings/openings_io.h"
+#include "common/sloped_planes/planes_io.h"
 #include "common/wall_lines/wall_lines_io.h"
 
 namespace roomcut {
@@ -13,6 +14,8 @@ InputRecord verified_artefact(const std::filesystem::path& path) {
     stated.payload_sha256 = sha256_of_file(path);
   } else if (stated.artefact == artefacts::kWallLines.name) {
     stated.payload_sha256 = read_wall_lines(path).payload_sha256;
+  } else if (stated.artefact == artefacts::kPlanes.name) {
+    stated.payload_sha256 = read_planes_file(path).payload_sha256;
   } else if (stated.artefact == artefacts::kOpenings.name) {
     stated.payload_sha256 = read_openings(path).payload_sha256;
   } else {

@@ -18,7 +18,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kEdit = "edits/wall_lines.geojson";
+bool is_edit(const std::string& file) {
+  return file.starts_with("edits/");
+}
 
 bool is_there(const fs::path& path) {
   std::error_code error;
@@ -74,9 +76,9 @@ bool was_made_with_edit(const PipelineStage& stage) {
   return false;
 }
 
-std::string edit_change(const PipelineStage& stage) {
+std::string edit_change(const PipelineStage& stage, const std::string& edit) {
   const bool had = was_made_with_edit(stage);
-  if (had && is_there(kEdit)) {
+  if (had && is_there(edit)) {
     return "the hand edit changed";
   }
   return had ? "the hand edit was dropped" : "a hand edit was put in place";
@@ -101,8 +103,8 @@ std::vector<std::string> reasons(const PipelineStage& stage, const StaleStage& s
       text.emplace_back("the scan is to be read with another up axis or unit");
     } else if (file == "inputs/stations.txt") {
       text.emplace_back("the scanner positions changed");
-    } else if (file == kEdit) {
-      text.push_back(edit_change(stage));
+    } else if (is_edit(file)) {
+      text.push_back(edit_change(stage, file));
     } else {
       text.push_back("its input " + file + " is another than it read");
     }
@@ -125,8 +127,8 @@ std::string stale_text(const PipelineStage& stage, const StaleStage& stale) {
 
 /// ", edited: 1 moved, 1 locked" for the stage that took in a hand edit; "" for all others.
 std::string edit_text(const PipelineStage& stage) {
-  const bool takes = std::find(stage.inputs.begin(), stage.inputs.end(), kEdit) != stage.inputs.end();
-  if (!takes || !is_there(kEdit)) {
+  const auto edit = std::find_if(stage.inputs.begin(), stage.inputs.end(), is_edit);
+  if (edit == stage.inputs.end() || !is_there(*edit)) {
     return "";
   }
   const Json log = json_or_null("logs/" + stage.name + ".json");

@@ -47,6 +47,7 @@ struct Slices {
   double noise_m = 0;
   double density = 0;  ///< [1/m^2]
   double tau_m = 0;    ///< edge of the occupancy cells (paper: grid-size tau)
+  double step_m = 0;   ///< distance of the steps that stand for slopes; 0 = there are none
   VerticalHistogram histogram;
   std::vector<Level> levels;               ///< ascending, at least 2
   std::vector<OccupancyGrid> wall_slices;  ///< levels.size() - 1: slice k lies between levels k and k+1

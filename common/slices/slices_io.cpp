@@ -169,6 +169,7 @@ Slices read_slices(const std::filesystem::path& path, bool grids) {
   slices.noise_m = read_number(file, "noise", 0, limits::kLargestNoise_m);
   slices.density = read_number(file, "density", 0, limits::kDensest);
   slices.tau_m = read_number(file, "tau", limits::kSmallestEdge_m, limits::kLargestEdge_m);
+  slices.step_m = file.exists("step") ? read_number(file, "step", 0, limits::kLargestEdge_m) : 0;
   slices.histogram.z0 = read_number(file, "histogram/z0", -kFarthest_m, kFarthest_m);
   slices.histogram.bin_m = read_number(file, "histogram/bin", 0, limits::kLargestEdge_m);
   slices.histogram.area_m2 = read_in_range<double>(file, "histogram/area", {0}, 0, limits::kLargestArea_m2);
@@ -187,6 +188,7 @@ bool write_slices(const std::filesystem::path& path, const Slices& slices, const
   write_scalar(file, "noise", slices.noise_m, "m", "standard deviation of points off their plane");
   write_scalar(file, "density", slices.density, "1/m^2", "points per square metre of surface, median");
   write_scalar(file, "tau", slices.tau_m, "m", "edge of the occupancy cells");
+  write_scalar(file, "step", slices.step_m, "m", "distance of the levels that stand for slopes; 0 = none");
   write_scalar(file, "histogram/z0", slices.histogram.z0, "m", "lower edge of bin 0");
   write_scalar(file, "histogram/bin", slices.histogram.bin_m, "m", "height of a bin");
   file.write("histogram/area", slices.histogram.area_m2, "m^2", "horizontal surface per bin");

@@ -23,7 +23,7 @@ struct Fit {
 };
 
 Fit fit_of(const std::vector<DrawnLine>& drawn, const EditPlan& plan, const WallLines& base) {
-  const PlanBox allowed = allowed_box(base);
+  const PlanBox allowed = allowed_box(base.bbox_min, base.bbox_max);
   Fit fit;
   for (const DrawnLine& d : drawn) {
     const Vec2 a = plan.to_base(d.line.a);

@@ -38,8 +38,9 @@ std::string text_of(const std::filesystem::path& path) {
 
 Json parse(const std::string& text, const EditReport& report) {
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
-    throw StageError(errors::kLinesNotJson, report.path, "the file is empty",
-                     "save it again, or remove it to work with the detected lines");
+    throw StageError(
+        errors::kLinesNotJson, report.path, "the file is empty",
+        std::string("save it again, or remove it to work with the detected ") + report.kind.things);
   }
   try {
     return parse_json(text);
@@ -56,7 +57,7 @@ void check_collection(const Json& document, const EditReport& report) {
   if (!collection) {
     throw StageError(errors::kLinesNotFeatureCollection, report.path,
                      "no GeoJSON FeatureCollection with a list of features",
-                     "export the layer as GeoJSON, or start from `make edit-lines`");
+                     std::string("export the layer as GeoJSON, or start from `") + report.kind.copy + "`");
   }
 }
 
@@ -73,10 +74,11 @@ void check_version(const Json& member, EditReport& report) {
   if (first.ec == std::errc() && first.ptr != end && *first.ptr == '.') {
     std::from_chars(first.ptr + 1, end, minor);
   }
-  const ArtefactType type = artefacts::kWallLines;
+  const ArtefactType type = report.kind.type;
   if (major < 1 || minor < 0) {
     report.problem(errors::kLinesVersion, kMember, "schema_version \"" + version + "\" is no version",
-                   "write \"1.0\" as in the detected lines, or delete the whole member");
+                   std::string("write \"1.0\" as in the detected ") + report.kind.things +
+                       ", or delete the whole member");
   } else if (major > type.major || (major == type.major && minor > type.minor)) {
     report.problem(errors::kLinesVersion, kMember,
                    "has schema version " + version + ", this roomcut reads up to " +
@@ -89,7 +91,10 @@ void check_version(const Json& member, EditReport& report) {
 Frame check_frame(const Json& member, const Frame& base, EditReport& report) {
   if (member.contains("length_unit") && member["length_unit"] != "m") {
     std::string what = "length_unit is ";
-    what.append(excerpt(member["length_unit"])).append(", lines are in \"m\"");
+    what.append(excerpt(member["length_unit"]))
+        .append(", ")
+        .append(report.kind.things)
+        .append(" are in \"m\"");
     report.problem(errors::kLinesUnit, kMember, what, "scale the coordinates to metres and write \"m\"");
   }
   if (!member.contains("frame")) {
@@ -100,14 +105,15 @@ Frame check_frame(const Json& member, const Frame& base, EditReport& report) {
     frame = frame_from_json(member["frame"]);
   } catch (const std::exception&) {
     report.problem(errors::kLinesUnit, kMember, "frame is not complete, or not one",
-                   "copy the member `frame` from the detected lines");
+                   std::string("copy the member `frame` from the detected ") + report.kind.things);
     return base;
   }
   if (frame.unit != base.unit || frame.up != base.up) {
     report.problem(errors::kLinesUnit, kMember,
                    "was drawn on a scan read with --unit " + frame.unit + " --up " + frame.up +
                        ", this one was read with --unit " + base.unit + " --up " + base.up,
-                   "ingest the scan as before, or draw the edit anew (`make drop-edit`, `make edit-lines`)");
+                   std::string("ingest the scan as before, or draw the edit anew (`") + report.kind.drop +
+                       "`, `" + report.kind.copy + "`)");
     return base;
   }
   return frame;
@@ -117,16 +123,18 @@ Vec2 moved_by(const Frame& frame, const Frame& base) {
   return {frame.origin[0] - base.origin[0], frame.origin[1] - base.origin[1]};
 }
 
-/// Files of version 1.0 do not say it: theirs are local.
 LineCoordinates check_coordinates(const Json& member, EditReport& report) {
-  if (!member.contains(kCoordinatesKey) || member[kCoordinatesKey] == kLocalCoordinates) {
+  if (!member.contains(kCoordinatesKey)) {
+    return report.kind.unstated;
+  }
+  if (member[kCoordinatesKey] == kLocalCoordinates) {
     return LineCoordinates::kLocal;
   }
   if (member[kCoordinatesKey] != kScanCoordinates) {
     report.problem(errors::kLinesUnit, kMember,
                    std::string(kCoordinatesKey) + " is " + excerpt(member[kCoordinatesKey]) +
                        ", must be \"scan\" or \"local\"",
-                   "write \"scan\" when the lines lie on the scan");
+                   std::string("write \"scan\" when the ") + report.kind.things + " lie on the scan");
   }
   return LineCoordinates::kScan;
 }
@@ -159,19 +167,37 @@ Vec2 EditPlan::to_base(const Vec2& drawn) const {
       base_.plan_to_local(coordinates_ == LineCoordinates::kScan ? drawn : own_.plan_to_scan(drawn)));
 }
 
+double EditPlan::height_to_base(const Vec2& drawn, double height) const {
+  const bool local = coordinates_ == LineCoordinates::kLocal;
+  return without_rounding(
+      base_.height_to_local(to_base(drawn), local ? own_.height_to_scan(drawn, height) : height));
+}
+
+Vec2 EditPlan::direction_to_base(const Vec2& drawn) const {
+  if (as_it_is_) {
+    return drawn;
+  }
+  const Vec2 in_scan = coordinates_ == LineCoordinates::kLocal ? Vec2(own_.plan_turn() * drawn) : drawn;
+  return (base_.plan_turn().inverse() * in_scan).normalized();
+}
+
 EditOrigin read_edit_member(const Json& document, const Frame& base_frame, EditReport& report) {
   EditOrigin origin;
   origin.frame = base_frame;
   if (!document.contains(kMember)) {
     std::string what = "the member `";
-    what.append(kMember).append("` is missing; unit, frame and base are taken from the detected lines");
+    what.append(kMember)
+        .append("` is missing; unit, frame and base are taken from the detected ")
+        .append(report.kind.things);
     report.warn("", what);
     return origin;
   }
   const Json& member = document[kMember];
-  if (!member.is_object() || text_member(member, "artefact") != artefacts::kWallLines.name) {
-    report.problem(errors::kLinesNoMember, kMember, "does not say \"artefact\": \"wall_lines\"",
-                   "restore it from the detected lines, or delete the whole member");
+  if (!member.is_object() || text_member(member, "artefact") != report.kind.type.name) {
+    report.problem(
+        errors::kLinesNoMember, kMember,
+        std::string("does not say \"artefact\": \"") + report.kind.type.name + "\"",
+        std::string("restore it from the detected ") + report.kind.things + ", or delete the whole member");
     return origin;
   }
   check_version(member, report);
@@ -181,7 +207,7 @@ EditOrigin read_edit_member(const Json& document, const Frame& base_frame, EditR
   const double moved = moved_by(origin.frame, base_frame).norm();
   if (origin.coordinates == LineCoordinates::kLocal && moved > kSameOrigin_m) {
     report.warn(kMember, "the scan's origin moved by " + std::to_string(moved) +
-                             " m since the edit began; its lines were moved along");
+                             " m since the edit began; its " + report.kind.things + " were moved along");
   }
   return origin;
 }

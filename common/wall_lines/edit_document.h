@@ -7,16 +7,31 @@
 #include <vector>
 
 #include "common/artefact/json.h"
+#include "common/artefact/types.h"
 #include "common/errors/error.h"
 #include "common/wall_lines/wall_line.h"
 #include "common/wall_lines/wall_lines_format.h"
 
-// The parts of read_edited_wall_lines(). Each adds what is wrong to `EditReport::problems` and goes on, so
-// that a person sees all problems of the file at once.
+// The parts of read_edited_wall_lines(), and what read_edited_planes() (common/sloped_planes) shares with it.
+// Each adds what is wrong to `EditReport::problems` and goes on, so that a person sees all problems of the
+// file at once.
 namespace roomcut {
+
+/// A kind of file that people edit, and its words.
+struct EditKind {
+  ArtefactType type;
+  const char* things;        ///< "lines"
+  const char* copy;          ///< the command that begins an edit
+  const char* drop;          ///< … and that takes it back
+  const char* id;            ///< the property that names a feature
+  LineCoordinates unstated;  ///< of files whose member `roomcut` does not say
+};
+inline constexpr EditKind kLinesEdit{artefacts::kWallLines, "lines",   "make edit-lines",
+                                     "make drop-edit",      "wall_id", LineCoordinates::kLocal};
 
 /// Problems and warnings found in a hand-edited file.
 struct EditReport {
+  EditKind kind = kLinesEdit;
   std::string path;
   std::vector<Problem> problems;
   std::vector<std::string> warnings;
@@ -45,6 +60,10 @@ class EditPlan {
  public:
   EditPlan(LineCoordinates coordinates, const Frame& own, const Frame& base);
   Vec2 to_base(const Vec2& drawn) const;
+  /// A height of the file at a place of the file.
+  double height_to_base(const Vec2& drawn, double height) const;
+  /// A direction of the plan as the base has it, a unit vector.
+  Vec2 direction_to_base(const Vec2& drawn) const;
   LineCoordinates coordinates() const { return coordinates_; }
 
  private:
@@ -75,7 +94,7 @@ LineCoordinates judge_coordinates(const std::vector<DrawnLine>& drawn, const Wal
                                   EditReport& report);
 
 /// "features[17]" or "features[17] (wall_id w0017)".
-std::string feature_place(std::size_t index, const std::string& id);
+std::string feature_place(std::size_t index, const std::string& id, const char* id_property = kLinesEdit.id);
 
 /// Below it a line has no direction worth the name [m].
 inline constexpr double kShortestLine_m = 1e-3;
@@ -85,7 +104,14 @@ struct PlanBox {
   Vec2 low, high;
   bool holds(const Vec2& p) const;  ///< NaN is nowhere
 };
-PlanBox allowed_box(const WallLines& base);
+PlanBox allowed_box(const Vec2& bbox_min, const Vec2& bbox_max);
+
+/// Why places between `low` and `high`, in the coordinates of the file, lie outside, and what to do.
+struct OutsideCause {
+  std::string what, hint;
+};
+OutsideCause outside_cause(const Vec2& low, const Vec2& high, const PlanBox& allowed, const EditPlan& plan,
+                           const Frame& base_frame);
 
 /// Reports kLinesOutside for lines (in the coordinates of the file) far outside the base's box, naming the
 /// likely cause, and kLinesDegenerate.

@@ -22,17 +22,13 @@ struct Box {
   double diagonal() const { return (high - low).norm(); }
 };
 
-struct Cause {
-  std::string what, hint;
-};
-
 /// Whether all points of `points` lie in `allowed` after p -> to_local(scale * p).
 template <class ToLocal>
 bool fits(const Box& points, const PlanBox& allowed, double scale, ToLocal to_local) {
   return allowed.holds(to_local(scale * points.low)) && allowed.holds(to_local(scale * points.high));
 }
 
-Cause other_coordinates(const EditPlan& plan) {
+OutsideCause other_coordinates(const EditPlan& plan) {
   if (plan.coordinates() == LineCoordinates::kScan) {
     return {"these look like local coordinates, as files of version 1.0 have them",
             R"(write "coordinates": "local" in the member `roomcut`)"};
@@ -41,11 +37,12 @@ Cause other_coordinates(const EditPlan& plan) {
           R"(write "coordinates": "scan" in the member `roomcut`)"};
 }
 
-Cause likely_cause(const Box& points, const PlanBox& allowed, const EditPlan& plan, const WallLines& base) {
+OutsideCause likely_cause(const Box& points, const PlanBox& allowed, const EditPlan& plan,
+                          const Frame& frame) {
   const auto to_base = [&](const Vec2& p) { return plan.to_base(p); };
   const EditPlan other(
-      plan.coordinates() == LineCoordinates::kScan ? LineCoordinates::kLocal : LineCoordinates::kScan,
-      base.frame, base.frame);
+      plan.coordinates() == LineCoordinates::kScan ? LineCoordinates::kLocal : LineCoordinates::kScan, frame,
+      frame);
   if (fits(points, allowed, 1, [&](const Vec2& p) { return other.to_base(p); })) {
     return other_coordinates(plan);
   }
@@ -60,7 +57,7 @@ Cause likely_cause(const Box& points, const PlanBox& allowed, const EditPlan& pl
     return {"these look like centimetres", "scale the coordinates to metres"};
   }
   return {"neither degrees, millimetres nor the scan's own or local coordinates would fit",
-          "move the line into the scan, or delete the feature"};
+          "move it into the scan, or delete the feature"};
 }
 
 void check_lengths(const std::vector<DrawnLine>& drawn, EditReport& report) {
@@ -78,14 +75,19 @@ bool PlanBox::holds(const Vec2& p) const {
   return p.x() >= low.x() && p.y() >= low.y() && p.x() <= high.x() && p.y() <= high.y();
 }
 
-PlanBox allowed_box(const WallLines& base) {
-  const double margin = 0.5 * (base.bbox_max - base.bbox_min).norm();
-  return {base.bbox_min - Vec2(margin, margin), base.bbox_max + Vec2(margin, margin)};
+PlanBox allowed_box(const Vec2& bbox_min, const Vec2& bbox_max) {
+  const double margin = 0.5 * (bbox_max - bbox_min).norm();
+  return {bbox_min - Vec2(margin, margin), bbox_max + Vec2(margin, margin)};
+}
+
+OutsideCause outside_cause(const Vec2& low, const Vec2& high, const PlanBox& allowed, const EditPlan& plan,
+                           const Frame& base_frame) {
+  return likely_cause({low, high}, allowed, plan, base_frame);
 }
 
 void check_edit_extent(const std::vector<DrawnLine>& drawn, const EditPlan& plan, const WallLines& base,
                        EditReport& report) {
-  const PlanBox allowed = allowed_box(base);
+  const PlanBox allowed = allowed_box(base.bbox_min, base.bbox_max);
   const auto outside = [&](const DrawnLine& d) {
     return !allowed.holds(plan.to_base(d.line.a)) || !allowed.holds(plan.to_base(d.line.b));
   };
@@ -101,9 +103,10 @@ void check_edit_extent(const std::vector<DrawnLine>& drawn, const EditPlan& plan
   }
   if (count == drawn.size() || shrunk) {
     if (!drawn.empty()) {
-      const Cause cause = shrunk ? Cause{"these look like degrees",
-                                         "save the layer in the coordinate system of the scan, in metres"}
-                                 : likely_cause(all, allowed, plan, base);
+      const OutsideCause cause =
+          shrunk ? OutsideCause{"these look like degrees",
+                                "save the layer in the coordinate system of the scan, in metres"}
+                 : likely_cause(all, allowed, plan, base.frame);
       report.problem(errors::kLinesOutside, "all " + std::to_string(drawn.size()) + " lines",
                      (shrunk ? "lie on one spot: " : "lie far outside the scan: ") + cause.what, cause.hint);
     }
@@ -114,7 +117,7 @@ void check_edit_extent(const std::vector<DrawnLine>& drawn, const EditPlan& plan
       Box one;
       one.add(d.line.a);
       one.add(d.line.b);
-      const Cause cause = likely_cause(one, allowed, plan, base);
+      const OutsideCause cause = likely_cause(one, allowed, plan, base.frame);
       report.problem(errors::kLinesOutside, feature_place(d.feature, d.line.id),
                      "lies far outside the scan: " + cause.what, cause.hint);
     }

@@ -8,49 +8,12 @@
 #include "common/errors/codes.h"
 #include "common/text/words.h"
 #include "common/wall_lines/edit_document.h"
+#include "common/wall_lines/edit_values.h"
 #include "common/wall_lines/wall_lines_format.h"
 
 namespace roomcut {
 
 namespace {
-
-constexpr std::size_t kLongestId = 64;
-
-/// A text without blanks around it, or whatever else it is as JSON.
-std::string trimmed_text(const Json& value) {
-  return value.is_string() ? std::string(trimmed(value.get<std::string>())) : canonical_json(value);
-}
-
-/// A number, or text that is one as a whole: columns of text are common in QGIS.
-std::optional<double> number_of(const Json& value) {
-  if (value.is_number()) {
-    return value.get<double>();
-  }
-  if (!value.is_string()) {
-    return std::nullopt;
-  }
-  const std::string text(trimmed(value.get<std::string>()));
-  double number = 0;
-  const auto end = std::from_chars(text.data(), text.data() + text.size(), number);
-  return !text.empty() && end.ec == std::errc() && end.ptr == text.data() + text.size()
-             ? std::optional(number)
-             : std::nullopt;
-}
-
-std::optional<bool> truth_of(const Json& value) {
-  if (value.is_boolean()) {
-    return value.get<bool>();
-  }
-  std::string text = trimmed_text(value);
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  if (text == "true" || text == "t" || text == "yes" || text == "1") {
-    return true;
-  }
-  if (text == "false" || text == "f" || text == "no" || text == "0" || text.empty()) {
-    return false;
-  }
-  return std::nullopt;
-}
 
 /// A list as GDAL writes it into formats that have none: "(2:0,2)"; also "[0, 2]" and "0, 2".
 Json list_from_text(std::string text) {
@@ -138,17 +101,11 @@ class FeatureReader {
   }
 
   void read_id(const Json& value) {
-    const bool usable = value.is_string() || value.is_number_integer();
-    const std::string id = trimmed_text(value);
-    const auto control = [](unsigned char c) { return c < 0x20; };
-    if (value.is_null()) {
-      return;
-    }
-    if (!usable || id.size() > kLongestId || std::any_of(id.begin(), id.end(), control)) {
+    if (const std::optional<std::string> id = id_of(value)) {
+      id_ = *id;
+    } else {
       bad_property("wall_id", value, "a short text");
-      return;
     }
-    id_ = id;
   }
 
   void read_property(const std::string& name, const Json& value, WallLine& line, Json& extra) {
@@ -246,9 +203,9 @@ class FeatureReader {
 
 }  // namespace
 
-std::string feature_place(std::size_t index, const std::string& id) {
+std::string feature_place(std::size_t index, const std::string& id, const char* id_property) {
   const std::string place = "features[" + std::to_string(index) + "]";
-  return id.empty() ? place : place + " (wall_id " + id + ")";
+  return id.empty() ? place : place + " (" + id_property + " " + id + ")";
 }
 
 std::vector<DrawnLine> read_edit_features(const Json& features, EditReport& report) {

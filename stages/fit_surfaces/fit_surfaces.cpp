@@ -96,8 +96,9 @@ struct FittedRegion {
 };
 
 /// The plane itself where its points don't tell better.
-LevelSurface fit_sloped(const SlopedPlane& plane, const FittedRegion& of, const Roughness& roughness) {
-  if (patches(of.samples) >= kPlanePatches) {
+LevelSurface fit_sloped(const SlopedPlane& plane, bool held, const FittedRegion& of,
+                        const Roughness& roughness) {
+  if (!held && patches(of.samples) >= kPlanePatches) {
     PlaneFit fit = fit_tilted(of.samples, of.middle, plane.gradient);
     measure_covariance(of.samples, roughness, fit);
     if (std::abs(fit.z - plane.height(of.middle)) < kPlaneShift_m &&
@@ -206,7 +207,7 @@ SurfaceFitter::SurfaceFitter(const CellComplex& complex, const std::vector<std::
       seats_(complex, label),
       observer_(complex, seats_, params.patch_m, reach_m_, noise_of(cloud)) {}
 
-FittedSurfaces SurfaceFitter::fit() const {
+FittedSurfaces SurfaceFitter::fit(const std::vector<std::uint8_t>& held) const {
   FittedSurfaces result;
   const std::vector<Observation> observations = observer_.observations();
   const std::vector<std::size_t> chosen = choose_seats(complex_, seats_, observations);
@@ -249,8 +250,9 @@ FittedSurfaces SurfaceFitter::fit() const {
   result.surfaces.of_face.assign(chosen.size(), -1);
   for (const FittedRegion& of : regions) {
     if (of.region.plane >= 0) {
-      surfaces.push_back(
-          fit_sloped(complex_.planes[static_cast<std::size_t>(of.region.plane)], of, result.roughness));
+      const auto plane = static_cast<std::size_t>(of.region.plane);
+      const bool stays = plane < held.size() && held[plane] != 0;
+      surfaces.push_back(fit_sloped(complex_.planes[plane], stays, of, result.roughness));
     } else if (of.fit) {
       surfaces.push_back(as_surface(*of.fit, of.area, of.points, -1));
     } else {

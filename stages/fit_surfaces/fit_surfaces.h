@@ -39,8 +39,9 @@ class SurfaceFitter {
   /// Takes in the points of a tile. Thread-safe.
   void add(const CloudTile& tile) { observer_.add(tile); }
   std::uint64_t points() const { return observer_.points(); }
-  /// After all points are in.
-  FittedSurfaces fit() const;
+  /// After all points are in. `held` per sloped plane of the complex: 1 = it stays as it is (none = all are
+  /// fitted).
+  FittedSurfaces fit(const std::vector<std::uint8_t>& held = {}) const;
 
  private:
   const CellComplex& complex_;

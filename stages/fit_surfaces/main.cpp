@@ -5,6 +5,7 @@
 #include "common/cells/surfaces_io.h"
 #include "common/cli/run_stage.h"
 #include "common/cloud/cloud_io.h"
+#include "common/sloped_planes/planes_io.h"
 #include "stages/fit_surfaces/fit_surfaces.h"
 #include "stages/fit_surfaces/params.h"
 
@@ -16,10 +17,12 @@ using namespace roomcut::fit_surfaces;
 StageInfo info() {
   StageInfo stage;
   stage.name = "fit_surfaces";
-  stage.revision = 1;
+  stage.revision = 2;
   stage.summary = "Gives every floor and ceiling its own height or plane, on raw points";
-  stage.inputs = {
-      {"cells", "Cell complex of the second pass"}, {"labels", "Its labels"}, {"cloud", "Points"}};
+  stage.inputs = {{"cells", "Cell complex of the second pass"},
+                  {"labels", "Its labels"},
+                  {"planes", "Its sloped planes: which are locked"},
+                  {"cloud", "Points"}};
   stage.outputs = {{"surfaces-out", "True surfaces of floors and ceilings"}};
   return stage;
 }
@@ -37,6 +40,15 @@ void report(StageRun& run, const FittedSurfaces& fitted) {
   run.count("largest deviation", 1e3 * fitted.largest_rms_m, "mm");
 }
 
+/// Per plane of the complex, which has them in the order of the file: whether it is locked.
+std::vector<std::uint8_t> locked_planes(const AcceptedPlanes& accepted) {
+  std::vector<std::uint8_t> locked;
+  for (const PlaneFeature& feature : accepted.planes) {
+    locked.push_back(feature.locked ? 1 : 0);
+  }
+  return locked;
+}
+
 void body(StageRun& run, const FitSurfacesParams& params) {
   const CellsFile cells = read_cells(run.input("cells"));
   const Labels labels = read_labels(run.input("labels"), cells);
@@ -51,7 +63,7 @@ void body(StageRun& run, const FitSurfacesParams& params) {
     Progress progress = run.progress("observing", cloud.header().points);
     cloud.for_each_tile([&](std::size_t, const CloudTile& tile) { fitter.add(tile); },
                         [&](std::uint64_t points) { progress.advance(points); });
-    fitted = fitter.fit();
+    fitted = fitter.fit(locked_planes(read_planes_file(run.input("planes")).content));
     run.count("points", static_cast<double>(fitter.points()));
   }
   write_surfaces(run.output("surfaces-out"), fitted.surfaces, cells, run.provenance());

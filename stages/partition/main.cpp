@@ -4,7 +4,7 @@
 
 #include "common/cells/cells_io.h"
 #include "common/cli/run_stage.h"
-#include "common/slices/slices_io.h"
+#include "common/sloped_planes/planes_io.h"
 #include "common/wall_lines/wall_lines_io.h"
 #include "stages/partition/partition.h"
 
@@ -16,19 +16,23 @@ using namespace roomcut::partition;
 StageInfo info() {
   StageInfo stage;
   stage.name = "partition";
-  stage.revision = 3;
+  stage.revision = 4;
   stage.summary = "Cuts the plan into convex cells along the wall lines and stacks them between the levels";
-  stage.inputs = {{"lines", "Accepted (or refined) wall lines"}, {"slices", "Levels of floors and ceilings"}};
+  stage.inputs = {{"lines", "Accepted (or refined) wall lines"},
+                  {"planes", "Levels of floors and ceilings, and sloped planes"}};
   stage.outputs = {{"cells-out", "The cell complex"}};
   return stage;
 }
 
 void body(StageRun& run, const PartitionParams& params) {
   const WallLinesFile lines = read_wall_lines(run.input("lines"));
-  const Slices slices = read_slices(run.input("slices"), false);
+  const AcceptedPlanes planes = read_planes_file(run.input("planes")).content;
   std::vector<double> levels;
-  Slopes slopes{slices.planes, {}};
-  for (const Level& level : slices.levels) {
+  Slopes slopes;
+  for (const PlaneFeature& feature : planes.planes) {
+    slopes.planes.push_back(feature.plane);
+  }
+  for (const Level& level : planes.levels) {
     levels.push_back(level.z);
     slopes.steps.push_back(level.step ? 1 : 0);
   }

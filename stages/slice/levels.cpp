@@ -10,6 +10,7 @@
 #include <numbers>
 #include <utility>
 
+#include "common/slices/plane_steps.h"
 #include "stages/slice/furniture.h"
 #include "stages/slice/plan_mask.h"
 
@@ -17,8 +18,6 @@ namespace roomcut::slice {
 namespace {
 
 constexpr double kHeadroom = 1.5;  // m; walls on a roof that are lower are a parapet
-constexpr double kCloses = 0.3;    // m; a cap so far beyond the last of a slope, which its last step needs
-constexpr double kPasses = 0.08;   // m; a plane that goes on farther beyond a level leaves it
 constexpr double kStep = 0.0025;   // m; grid on which the density is evaluated
 
 /// Density of horizontal area over height [m^2 per m].
@@ -222,22 +221,6 @@ double reach_beyond(const std::map<std::int32_t, double>& beyond, double total, 
   return 0;
 }
 
-/// The lowest and the highest place of all planes.
-std::pair<double, double> heights_of(const std::vector<SlopedPlane>& planes) {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  for (const SlopedPlane& plane : planes) {
-    const auto [from, to] = plane.range();
-    low = std::min(low, from);
-    high = std::max(high, to);
-  }
-  return {low, high};
-}
-
-Level cap_at(double z) {
-  return {z, z, z, 0, 0, true};
-}
-
 }  // namespace
 
 std::vector<HeightMode> height_modes(const std::vector<SurfaceCell>& cells, const LevelRules& rules) {
@@ -303,7 +286,7 @@ void add_caps(std::vector<Level>& levels, const HeightSurvey& survey, const std:
               const std::vector<SlopedPlane>& planes, double reach_m) {
   const auto [bottom, top] = heights_of(planes);
   if (levels.empty()) {
-    if (!planes.empty()) levels = {cap_at(bottom - kCloses), cap_at(top + kCloses)};
+    if (!planes.empty()) levels = {cap_level(bottom - kCloses_m), cap_level(top + kCloses_m)};
     return;
   }
   const PlanMask plan = footprint(levels, survey, cells);
@@ -320,19 +303,19 @@ void add_caps(std::vector<Level>& levels, const HeightSurvey& survey, const std:
   }
   const double up = reach_beyond(above, total, levels.back().z);
   const double down = reach_beyond(below, total, -levels.front().z);
-  const bool slopes_up = top > levels.back().z + kPasses;
-  const bool slopes_down = bottom < levels.front().z - kPasses;
+  const bool slopes_up = top > levels.back().z + kPassesLevel_m;
+  const bool slopes_down = bottom < levels.front().z - kPassesLevel_m;
   const bool roof =
       !slopes_up && levels.size() > 2 && up < kHeadroom && is_floor(levels.back(), survey, cells);
   if (up > 0 && roof) {
     levels.pop_back();
   } else if (up > 0 || slopes_up) {
     const double walls = levels.back().z + up;
-    levels.push_back(cap_at(slopes_up ? std::max(walls, top + kCloses) : walls));
+    levels.push_back(cap_level(slopes_up ? std::max(walls, top + kCloses_m) : walls));
   }
   if (down > 0 || slopes_down) {
     const double walls = levels.front().z - down;
-    levels.insert(levels.begin(), cap_at(slopes_down ? std::min(walls, bottom - kCloses) : walls));
+    levels.insert(levels.begin(), cap_level(slopes_down ? std::min(walls, bottom - kCloses_m) : walls));
   }
 }
 

@@ -43,7 +43,7 @@ void report(StageRun& run, const SliceResult& result) {
 int main(int argc, char** argv) {
   SliceParams params;
   StageInfo info{"slice",
-                 7,
+                 8,
                  "Finds floors and ceilings in the height histogram and the wall evidence between them.",
                  {{"cloud", "points in tiles, from ingest"}},
                  {{"slices", "levels, sloped planes, histogram, wall slices"}},

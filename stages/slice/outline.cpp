@@ -4,27 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <tuple>
+#include <utility>
+
+#include "common/geometry/convex_hull.h"
 
 namespace roomcut::slice {
 namespace {
-
-double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-/// Adds the points' lower (or, of the reversed points, upper) chain to `hull`, without its last point.
-template <class Iterator>
-void add_chain(Iterator from, Iterator to, std::vector<Vec2>& hull) {
-  const std::size_t begin = hull.size();
-  for (; from != to; ++from) {
-    while (hull.size() >= begin + 2 && cross(hull.back() - hull[hull.size() - 2], *from - hull.back()) <= 0) {
-      hull.pop_back();
-    }
-    hull.push_back(*from);
-  }
-  hull.pop_back();
-}
 
 void add_corners(const Moments& moments, std::vector<Vec2>& corners) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(
@@ -113,15 +98,7 @@ std::vector<Vec2> outline_of(std::size_t region, const std::vector<PlanarRegion>
     }
     end_at(regions[region].plane, others, voxels[i].moments.mean().head<2>(), first, corners);
   }
-  std::sort(corners.begin(), corners.end(), [](const Vec2& a, const Vec2& b) {
-    return std::make_tuple(a.x(), a.y()) < std::make_tuple(b.x(), b.y());
-  });
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-  std::vector<Vec2> hull;
-  if (corners.size() < 3) return hull;
-  add_chain(corners.begin(), corners.end(), hull);
-  add_chain(corners.rbegin(), corners.rend(), hull);
-  return hull;
+  return convex_hull(std::move(corners));
 }
 
 }  // namespace roomcut::slice

@@ -129,6 +129,7 @@ SliceResult slice_cloud(const CloudHeader& header, const TileSource& tiles, cons
   slices.bbox_max = header.bbox_max;
   slices.noise_m = header.noise_m;
   slices.density = header.density;
+  slices.step_m = params.step_m;
   slices.histogram = survey.horizontal;
   slices.levels = find_levels(survey, cells, rules, &result.rejected);
   add_caps(slices.levels, survey, cells, slices.planes, params.cap_reach_m);

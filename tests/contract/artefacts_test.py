@@ -79,6 +79,8 @@ class Artefacts(unittest.TestCase):
     def test_every_json_passes_its_schema(self):
         checked = 0
         pairs = [(path, "wall_lines") for path in self.files("wall_lines.geojson")]
+        pairs.append((os.path.join(self.work, "45_accept_planes", "planes.geojson"), "planes"))
+        pairs.append((os.path.join(SOURCE, "tests/compat/planes_v1.0.geojson"), "planes"))
         pairs += [(os.path.join(self.work, "summary.json"), "summary"),
                   (os.path.join(self.work, "evaluate", "scores.json"), "scores"),
                   (os.path.join(self.work, "compare", "work", "comparison.json"), "comparison")]

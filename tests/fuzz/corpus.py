@@ -61,7 +61,14 @@ OPENINGS = """{"type": "FeatureCollection", "name": "openings", "roomcut": {"art
 "jamb_b": {"points": 20, "spread": 0.5, "sigma_m": 0.002}, "head": {"points": 20, "spread": 0.5, "sigma_m": 0.002}},
 "geometry": {"type": "LineString", "coordinates": [[1.0, 7.0], [1.4, 7.8]]}}]}""".replace("DIGEST", DIGEST)
 
+PLANES_EDIT = b"""{"type": "FeatureCollection", "features": [
+{"type": "Feature", "properties": {"pitch_deg": 30, "uphill_deg": "90", "height_m": 2, "side": "floor", "locked": true, "note": "n", "mine": [1]},
+"geometry": {"type": "Polygon", "coordinates": [[[1, 1], [3, 1], [3, 2], [1, 2], [1, 1]]]}},
+{"type": "Feature", "properties": {"plane_id": "p0001", "pitch_deg": 10, "uphill_deg": 0, "height_m": 1},
+"geometry": {"type": "MultiPolygon", "coordinates": [[[[0, 0], [2, 0], [1, 0.5], [2, 2]], [[1, 1], [1.5, 1], [1, 1.5]]]]}}]}"""
+
 MADE = {
+    "planes_edit": lambda: [PLANES_EDIT],
     "scan_ply": scans_ply,
     "scan_text": scans_text,
     "scan_pcd": scans_pcd,
@@ -82,9 +89,12 @@ def of_run(source, run):
     """Target: files of the run and of the repository."""
     edits, scenes = (sorted(glob.glob(os.path.join(source, "tests/data", pattern))) for pattern in ("edits/*.geojson", "scenes/*.json"))
     lines = [os.path.join(run, f"{stage}/wall_lines.geojson") for stage in ("30_detect_lines", "40_accept_lines", "80_refine_lines")]
+    planes = [os.path.join(run, PLACES["accepted_planes"]), *sorted(glob.glob(os.path.join(source, "tests/compat/planes_*.geojson")))]
     return {
         "wall_lines": lines,
         "edit": lines[1:2] + edits,
+        "planes": planes,
+        "planes_edit": planes,
         "openings": [os.path.join(run, "95_find_openings/openings.geojson")],
         "summary": [os.path.join(run, "summary.json")],
         "run_log": [os.path.join(run, "logs/slice.json"), os.path.join(run, "logs/ingest.json")],

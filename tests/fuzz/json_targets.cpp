@@ -4,9 +4,12 @@
 
 #include "common/openings/openings_io.h"
 #include "common/params/params.h"
+#include "common/slices/slices_io.h"
+#include "common/sloped_planes/planes_io.h"
 #include "common/wall_lines/compare_lines.h"
 #include "common/wall_lines/wall_lines_io.h"
 #include "stages/accept_lines/accept_lines.h"
+#include "stages/accept_planes/accept_planes.h"
 #include "stages/tools/compare/comparison_json.h"
 #include "stages/tools/compare/read_run.h"
 #include "stages/tools/evaluate/evaluate_io.h"
@@ -33,6 +36,22 @@ void edit(std::string_view bytes) {
   const WallLinesFile edited = read_edited_wall_lines(file.path(), kBase.content);
   const Acceptance accepted = accept_lines::accept_lines(kBase.content, kBase.payload_sha256, edited.content);
   write_wall_lines(private_folder() / "written.geojson", accepted.lines, kBase.provenance);
+}
+
+void planes(std::string_view bytes) {
+  const PrivateFile file(bytes, ".geojson");
+  const PlanesFile planes = read_planes_file(file.path());
+  write_planes_file(private_folder() / "written.geojson", planes.content, planes.provenance);
+}
+
+/// What accept_planes does with a hand edit, of the run's building.
+void planes_edit(std::string_view bytes) {
+  static const Slices kSlices = read_slices(seeds() / "20_slice/slices.h5", false);
+  static const AcceptedPlanes kBase = accept_planes::detected_planes(kSlices);
+  const PrivateFile file(bytes, ".geojson");
+  const PlanesFile edited = read_edited_planes(file.path(), kBase);
+  const auto accepted = accept_planes::accept_planes(kSlices, kBase, edited.payload_sha256, edited.content);
+  write_planes_file(private_folder() / "written.geojson", accepted.planes, edited.provenance);
 }
 
 void openings(std::string_view bytes) {
@@ -95,6 +114,8 @@ void params_dump(std::string_view bytes) {
 constexpr std::array kTargets{
     Target{"wall_lines", Mutation::kJson, wall_lines, "40_accept_lines/wall_lines.geojson"},
     Target{"edit", Mutation::kJson, edit, "40_accept_lines/wall_lines.geojson"},
+    Target{"planes", Mutation::kJson, planes, "45_accept_planes/planes.geojson"},
+    Target{"planes_edit", Mutation::kJson, planes_edit, "45_accept_planes/planes.geojson"},
     Target{"openings", Mutation::kJson, openings, "95_find_openings/openings.geojson"},
     Target{"summary", Mutation::kJson, summary, "summary.json"},
     Target{"run_log", Mutation::kJson, run_log, "logs/slice.json"},

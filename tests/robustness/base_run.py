@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A small whole run, made by the programs themselves: two rooms with a door between them, all artefacts, a truth, an edit."""
+import json
 import os
 import shutil
 import subprocess
@@ -27,8 +28,15 @@ def make(source, build, folder, points=POINTS):
     run(["make", "--no-print-directory", "-C", source, "run", f"SCAN={os.path.join(folder, programs.SCAN)}", f"WORK={folder}",
          f"BUILD={build}", "QUIET=1"], env=clean)
     shutil.copy(os.path.join(source, "pipeline.yaml"), os.path.join(folder, "my.yaml"))
-    # The edit is not part of the run above: accept_lines and diff_lines find it when a test puts it into its place.
+    # The edits are not part of the run above: the doors and diff_lines find them when a test puts them into their places.
     shutil.copy(os.path.join(folder, programs.LINES_40), os.path.join(folder, "edit.geojson"))
+    with open(os.path.join(folder, programs.PLANES), encoding="utf-8") as text:
+        planes = json.load(text)
+    ring = [[0.5, 0.5], [2.5, 0.5], [2.5, 1.5], [0.5, 1.5], [0.5, 0.5]]
+    planes["features"].append({"type": "Feature", "properties": {"pitch_deg": 20, "uphill_deg": 0, "height_m": 2, "side": "ceiling", "locked": False},
+                               "geometry": {"type": "Polygon", "coordinates": [ring]}})
+    with open(os.path.join(folder, "planes_edit.geojson"), "w", encoding="utf-8") as text:
+        json.dump(planes, text, indent=1)
     return folder
 
 

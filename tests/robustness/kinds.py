@@ -168,6 +168,7 @@ def all_kinds():
         **surveyed_kinds(),
         "stations": Kind(p.STATIONS, "text", [Call("ingest", ["--work", ".", "--scan", p.SCAN, "--stations", p.STATIONS])], source=stations),
         "edit": Kind(p.EDIT, "json", [Call("accept_lines"), Call("diff_lines")], source=file_of("edit.geojson")),
+        "planes_edit": Kind(p.PLANES_EDIT, "json", [Call("accept_planes")], source=file_of("planes_edit.geojson")),
         "pipeline_yaml": Kind("my.yaml", "yaml", [asked(binary, "--config", "my.yaml") for binary in [*BINARIES, "evaluate", "synthesize"]],
                               source=file_of("my.yaml")),
         "params": Kind("", "json", [], variants=[params(binary) for binary in BINARIES]),
@@ -179,7 +180,7 @@ def all_kinds():
         "scene": Kind(p.SCENE, "json", [Call("synthesize")], source=file_of(p.SCENE)),
     }
     artefacts = {
-        "cloud": p.CLOUD, "slices": p.SLICES, "hough": p.HOUGH, "lines_30": p.LINES_30, "lines_40": p.LINES_40, "lines_80": p.LINES_80,
+        "cloud": p.CLOUD, "slices": p.SLICES, "hough": p.HOUGH, "lines_30": p.LINES_30, "lines_40": p.LINES_40, "lines_80": p.LINES_80, "planes": p.PLANES,
         "cells": p.CELLS, "final_cells": p.FCELLS, "weights": p.WEIGHTS, "final_weights": p.FWEIGHTS, "data_terms": p.TERMS,
         "final_data_terms": p.FTERMS, "labels": p.LABELS, "final_labels": p.FLABELS, "surfaces": p.SURFACES, "rooms": p.ROOMS, "openings": p.OPENINGS, "summary": p.SUMMARY,
     }

@@ -11,6 +11,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 from pipeline_table import PLACES, RUNS, other_options  # noqa: E402
 
 CLOUD, SLICES, HOUGH, OPENINGS, EDIT = (PLACES[name] for name in ("cloud", "slices", "hough", "openings", "edit"))
+PLANES, PLANES_EDIT = (PLACES[name] for name in ("accepted_planes", "planes_edit"))
 LINES_30, LINES_40, LINES_80 = (PLACES[name] for name in ("detected", "accepted", "refined"))
 CELLS, WEIGHTS, TERMS, LABELS = (PLACES[name] for name in ("cells", "weights", "terms", "labels"))
 FCELLS, FWEIGHTS, FTERMS, FLABELS = (PLACES[f"final_{name}"] for name in ("cells", "weights", "terms", "labels"))
@@ -31,7 +32,7 @@ class Program:
 
 def stage(run):
     """A run as Make calls it. What enters from outside (parameters, edits, options of the scan) is there or not."""
-    inputs = [path for option, path in run.reads if option and path != EDIT]
+    inputs = [path for option, path in run.reads if option and path not in (EDIT, PLANES_EDIT)]
     scan = ["--scan", SCAN] if run.program == "ingest" else []
     return Program(run.program, inputs + scan[1:], run.paths("writes"), ["--work", ".", *scan, *other_options(run)],
                    "" if run.name == run.program else run.name)

@@ -10,7 +10,8 @@ namespace roomcut::report {
 
 namespace {
 
-constexpr Colour kBefore{230, 159, 0}, kAfter{0, 114, 178};
+constexpr Colour kBefore{230, 159, 0}, kAfter{0, 114, 178}, kWall{120, 120, 120};
+constexpr Colour kCeiling{0, 158, 115}, kFloor{213, 94, 0};
 
 std::string line_title(const WallLine& line) {
   char text[120] = "";
@@ -21,15 +22,28 @@ std::string line_title(const WallLine& line) {
   return line.id + text + (line.locked ? ", locked" : "");
 }
 
-std::string draw_both(const std::vector<WallLine>& before, const std::vector<WallLine>& after) {
-  Vec2 low(1e30, 1e30), high(-1e30, -1e30);
-  for (const auto* lines : {&before, &after}) {
-    for (const WallLine& line : *lines) {
-      low = low.cwiseMin(line.a).cwiseMin(line.b);
-      high = high.cwiseMax(line.a).cwiseMax(line.b);
+struct Extent {
+  Vec2 low{1e30, 1e30}, high{-1e30, -1e30};
+  void add(const Vec2& p) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  void add(const std::vector<WallLine>& lines) {
+    for (const WallLine& line : lines) {
+      add(line.a);
+      add(line.b);
     }
   }
-  Svg svg(low.array() - 0.5, high.array() + 0.5, std::min(60.0, 1000 / ((high - low).maxCoeff() + 1)));
+  Svg canvas() const {
+    return {low.array() - 0.5, high.array() + 0.5, std::min(60.0, 1000 / ((high - low).maxCoeff() + 1))};
+  }
+};
+
+std::string draw_both(const std::vector<WallLine>& before, const std::vector<WallLine>& after) {
+  Extent extent;
+  extent.add(before);
+  extent.add(after);
+  Svg svg = extent.canvas();
   for (const WallLine& line : before) {
     svg.line(line.a, line.b, kBefore, 4, line_title(line));
   }
@@ -46,6 +60,35 @@ Picture draw_acceptance(const std::vector<WallLine>& detected, const std::vector
       "accept_lines", "accept_lines.svg", "Wall lines as detected and as accepted",
       "Orange: detected. Blue: accepted. Orange alone: moved or deleted by hand; blue alone: moved or added.",
       draw_both(detected, accepted)};
+}
+
+Picture draw_planes(const AcceptedPlanes& planes, const std::vector<WallLine>& lines) {
+  Extent extent;
+  extent.add(lines);
+  for (const PlaneFeature& feature : planes.planes) {
+    for (const Vec2& corner : feature.plane.outline) extent.add(corner);
+  }
+  Svg svg = extent.canvas();
+  for (const WallLine& line : lines) svg.line(line.a, line.b, kWall, 1);
+  for (const PlaneFeature& feature : planes.planes) {
+    const SlopedPlane& plane = feature.plane;
+    const PlaneNumbers numbers = numbers_of(plane, planes.frame);
+    const Colour colour = plane.ceiling ? kCeiling : kFloor;
+    char text[120] = "";
+    std::snprintf(text, sizeof text, ": %.1f degrees, %.2f m high at its middle", numbers.pitch_deg,
+                  numbers.height_m);
+    svg.polygon(plane.outline, colour, 0.25, feature.id + text);
+    const Vec2 middle = middle_of(plane.outline);
+    const Vec2 uphill = plane.gradient.stableNormalized();
+    const Vec2 side(-uphill.y(), uphill.x());
+    const Vec2 tip = middle + 0.5 * uphill;
+    svg.line(middle - 0.5 * uphill, tip, colour, 2);
+    for (const double s : {-0.15, 0.15}) svg.line(tip, tip - 0.2 * uphill + s * side, colour, 2);
+    std::snprintf(text, sizeof text, "%s %.1f deg", feature.id.c_str(), numbers.pitch_deg);
+    svg.text(middle + Vec2(0.1, 0.1), text, 12, colour);
+  }
+  return {"accept_planes", "accept_planes.svg", "Sloped planes as accepted",
+          "Green: ceilings. Orange: floors. Arrows point uphill. Grey: accepted wall lines.", svg.str()};
 }
 
 Picture draw_refinement(const std::vector<WallLine>& before, const std::vector<WallLine>& after) {

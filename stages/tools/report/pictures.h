@@ -10,6 +10,7 @@
 #include "common/openings/opening.h"
 #include "common/picture/image.h"
 #include "common/slices/slices.h"
+#include "common/sloped_planes/accepted_planes.h"
 #include "common/wall_lines/wall_line.h"
 
 namespace roomcut::report {
@@ -33,6 +34,8 @@ Picture draw_occupancy(const Slices& slices, std::size_t slice, const std::vecto
 
 /// What a hand edit did to the lines.
 Picture draw_acceptance(const std::vector<WallLine>& detected, const std::vector<WallLine>& accepted);
+/// The outlines of sloped planes over the wall lines, an arrow uphill in each.
+Picture draw_planes(const AcceptedPlanes& planes, const std::vector<WallLine>& lines);
 /// Where the lines went: lines before refinement in orange, after it in blue.
 Picture draw_refinement(const std::vector<WallLine>& before, const std::vector<WallLine>& after);
 

@@ -20,6 +20,7 @@ std::vector<StageFile> report_inputs() {
           {"detected", "the detected wall lines", true},
           {"hough", "what the detection saw", true},
           {"lines", "the accepted wall lines", true},
+          {"planes", "the accepted sloped planes", true},
           {"refined", "the refined wall lines", true},
           {"first_cells", "the cells of the first pass", true},
           {"first_weights", "the weights of their faces", true},

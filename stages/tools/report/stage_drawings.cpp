@@ -6,6 +6,7 @@
 
 #include "common/mesh/mesh_io.h"
 #include "common/slices/slices_io.h"
+#include "common/sloped_planes/planes_io.h"
 #include "common/wall_lines/wall_lines_io.h"
 #include "stages/tools/report/pass_pictures.h"
 
@@ -49,6 +50,10 @@ void draw_accepted(const StageRun& run, const ReportParams& /*params*/, Pictures
   pictures.push_back(draw_acceptance(lines_of(run, "detected"), lines_of(run, "lines")));
 }
 
+void draw_sloped(const StageRun& run, const ReportParams& /*params*/, Pictures& pictures) {
+  pictures.push_back(draw_planes(read_planes_file(run.input("planes")).content, lines_of(run, "lines")));
+}
+
 void draw_refined(const StageRun& run, const ReportParams& /*params*/, Pictures& pictures) {
   pictures.push_back(draw_refinement(lines_of(run, "lines"), lines_of(run, "refined")));
 }
@@ -85,7 +90,8 @@ std::vector<StageDrawing> stage_drawings(const std::vector<ThinPoint>& points) {
   std::vector<StageDrawing> list = {{"ingest", {"cloud"}, true, true, draw_scan(points)},
                                     {"slice", {"slices"}, true, false, draw_levels},
                                     {"detect_lines", {"slices", "detected"}, true, false, draw_detection},
-                                    {"accept_lines", {"detected", "lines"}, false, false, draw_accepted}};
+                                    {"accept_lines", {"detected", "lines"}, false, false, draw_accepted},
+                                    {"accept_planes", {"planes", "lines"}, false, false, draw_sloped}};
   add_pass("", first, false, list);
   list.push_back({"refine_lines", {"lines", "refined"}, true, false, draw_refined});
   add_pass("final_", second, true, list);

@@ -33,13 +33,14 @@ Labels labels_of_attic(const CellComplex& complex) {
   });
 }
 
-FittedSurfaces fit_attic(const CellComplex& complex, const CloudTile& tile) {
+FittedSurfaces fit_attic(const CellComplex& complex, const CloudTile& tile,
+                         const std::vector<std::uint8_t>& held = {}) {
   CloudHeader header;
   header.noise_m = kNoise;
   const Labels labels = labels_of_attic(complex);
   SurfaceFitter fitter(complex, labels.label, header, {});
   fitter.add(tile);
-  return fitter.fit();
+  return fitter.fit(held);
 }
 
 std::vector<const LevelSurface*> roof_of(const CellComplex& complex, const FittedSurfaces& fitted) {
@@ -83,6 +84,19 @@ TEST(SlopedSurfaces, WithoutPointsTheRoofIsThePlaneThatSliceFound) {
   EXPECT_EQ(roof[0]->gradient, complex.planes[0].gradient);
   EXPECT_EQ(roof[0]->c, complex.planes[0].c);
   EXPECT_EQ(roof[0]->points, 0);
+}
+
+TEST(SlopedSurfaces, APlaneThatIsLockedStaysAsDrawnWhateverThePoints) {
+  const CellComplex complex = attic();
+  Normal random(1);
+  CloudTile tile;
+  add_floor(
+      tile, random, {0, 0}, {4, 6}, 200, kNoise, [](const Vec2& p) { return 1 + 0.5 * p.x(); },
+      SurfaceClass::kSloped);
+  const FittedSurfaces fitted = fit_attic(complex, tile, {1});
+  ASSERT_EQ(roof_of(complex, fitted).size(), 2U);
+  EXPECT_EQ(roof_of(complex, fitted)[0]->gradient, complex.planes[0].gradient);
+  EXPECT_NE(roof_of(complex, fit_attic(complex, tile, {0}))[0]->gradient, complex.planes[0].gradient);
 }
 
 TEST(SlopedSurfaces, ARealLevelBelowTheRoofStaysLevel) {
