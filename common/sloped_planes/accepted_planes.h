@@ -46,7 +46,7 @@ PlaneNumbers numbers_of(const SlopedPlane& plane, const Frame& frame);
 SlopedPlane plane_of(std::vector<Vec2> outline, const PlaneNumbers& numbers, const Frame& frame);
 
 /// The planes as a file holds them: everything rounded there, outlines as convex_hull() gives them, sorted by
-/// id. Coordinates stay local.
+/// id; without planes whose outline is less than the file's resolution. Coordinates stay local.
 AcceptedPlanes normalised_planes(AcceptedPlanes planes);
 
 }  // namespace roomcut

@@ -78,12 +78,16 @@ AcceptedPlanes normalised_planes(AcceptedPlanes planes) {
       corner = as_in_file(corner, scan);
     }
     plane.outline = convex_hull(std::move(plane.outline));
+    if (plane.outline.size() < 3) {
+      continue;
+    }
     SlopedPlane rounded = plane_of(plane.outline, numbers_of(plane, planes.frame), planes.frame);
     rounded.area_m2 = to_six_decimals(plane.area_m2);
     rounded.rms_m = to_six_decimals(plane.rms_m);
     rounded.ceiling = plane.ceiling;
     plane = std::move(rounded);
   }
+  std::erase_if(planes.planes, [](const PlaneFeature& feature) { return feature.plane.outline.size() < 3; });
   std::sort(planes.planes.begin(), planes.planes.end(),
             [](const PlaneFeature& a, const PlaneFeature& b) { return a.id < b.id; });
   return planes;

@@ -45,14 +45,13 @@ bool inside(const DrawnPlane& drawn, const EditPlan& plan, const PlanBox& allowe
                      [&](const Vec2& corner) { return allowed.holds(plan.to_base(corner)); });
 }
 
-/// Takes those out of `drawn` that nothing more can be said of.
-void check_outlines(std::vector<DrawnPlane>& drawn, const EditPlan& plan, const AcceptedPlanes& base,
-                    EditReport& report) {
+/// Those planes, as the base has them, of which more can be said.
+std::vector<DrawnPlane> placed(const std::vector<DrawnPlane>& drawn, const EditPlan& plan,
+                               const AcceptedPlanes& base, EditReport& report) {
   const PlanBox allowed = allowed_box(base.bbox_min, base.bbox_max);
-  std::erase_if(drawn, [&](const DrawnPlane& d) {
-    const bool outside = !inside(d, plan, allowed);
-    const bool nothing = 0.5 * turned_area(d.outline) < kSmallestOutline_m2;
-    if (outside) {
+  std::vector<DrawnPlane> result;
+  for (const DrawnPlane& d : drawn) {
+    if (!inside(d, plan, allowed)) {
       Vec2 low = d.outline[0], high = d.outline[0];
       for (const Vec2& corner : d.outline) {
         low = low.cwiseMin(corner);
@@ -61,12 +60,17 @@ void check_outlines(std::vector<DrawnPlane>& drawn, const EditPlan& plan, const 
       const OutsideCause cause = outside_cause(low, high, allowed, plan, base.frame);
       report.problem(errors::kLinesOutside, place_of(d), "lies far outside the scan: " + cause.what,
                      cause.hint);
-    } else if (nothing) {
+      continue;
+    }
+    DrawnPlane there = in_base(d, plan, base.frame);
+    if (there.outline.size() < 3 || 0.5 * turned_area(there.outline) < kSmallestOutline_m2) {
       report.problem(errors::kLinesDegenerate, place_of(d), "its outline has no area to speak of",
                      "draw it in metres, over the floor or ceiling that slopes, or delete the feature");
+      continue;
     }
-    return outside || nothing;
-  });
+    result.push_back(std::move(there));
+  }
+  return result;
 }
 
 LineCoordinates judge(const std::vector<DrawnPlane>& drawn, const AcceptedPlanes& base) {
@@ -86,20 +90,16 @@ PlanesFile read_edited_planes(const std::filesystem::path& path, const AcceptedP
   EditReport report{kPlanesEdit, path.string(), {}, {}};
   const Json document = read_edit_document(path, report);
   const EditOrigin origin = read_edit_member(document, base.frame, report);
-  std::vector<DrawnPlane> drawn = read_plane_features(document["features"], report);
+  const std::vector<DrawnPlane> drawn = read_plane_features(document["features"], report);
   const LineCoordinates coordinates = origin.coordinates ? *origin.coordinates : judge(drawn, base);
   if (!origin.coordinates && coordinates == LineCoordinates::kLocal) {
     report.warn("", "its planes are taken for local coordinates (the frame's origin subtracted)");
   }
   const EditPlan plan(coordinates, origin.frame, base.frame);
-  check_outlines(drawn, plan, base, report);
-  for (DrawnPlane& d : drawn) {
-    d = in_base(std::move(d), plan, base.frame);
-  }
   PlanesFile file;
   file.content = base;
   file.content.base_sha256 = origin.base_sha256;
-  file.content.planes = identify_planes(drawn, base, report);
+  file.content.planes = identify_planes(placed(drawn, plan, base, report), base, report);
   if (!report.problems.empty()) {
     throw StageError(report.problems);
   }

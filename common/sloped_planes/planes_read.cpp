@@ -9,6 +9,7 @@
 #include "common/geometry/convex_hull.h"
 #include "common/sloped_planes/planes_format.h"
 #include "common/sloped_planes/planes_io.h"
+#include "common/wall_lines/edit_values.h"
 #include "common/wall_lines/wall_lines_format.h"
 
 namespace roomcut {
@@ -110,6 +111,9 @@ void read_member(const Json& member, PlanesFile& file) {
   file.content.bbox_max = point_from(box.at(2), box.at(3), plan);
   file.content.levels = levels_from(member.at("levels"));
   file.content.base_sha256 = member.at("base_sha256").get<std::string>();
+  if (!file.content.base_sha256.empty() && !is_digest(file.content.base_sha256)) {  // no digest covers it
+    throw BadJson("base_sha256 is no digest");
+  }
   file.provenance = provenance_from_json(member.at("provenance"));
 }
 

@@ -10,6 +10,7 @@
 #include "common/artefact/json_values.h"
 #include "common/errors/codes.h"
 #include "common/wall_lines/duplicate_keys.h"
+#include "common/wall_lines/edit_values.h"
 #include "common/wall_lines/wall_lines_format.h"
 
 namespace roomcut {
@@ -202,6 +203,10 @@ EditOrigin read_edit_member(const Json& document, const Frame& base_frame, EditR
   }
   check_version(member, report);
   origin.base_sha256 = text_member(member, "base_sha256");
+  if (!origin.base_sha256.empty() && !is_digest(origin.base_sha256)) {
+    report.warn(kMember, "base_sha256 is no digest; the edit counts as begun from this detection");
+    origin.base_sha256.clear();
+  }
   origin.coordinates = check_coordinates(member, report);
   origin.frame = check_frame(member, base_frame, report);
   const double moved = moved_by(origin.frame, base_frame).norm();

@@ -58,4 +58,8 @@ std::optional<std::string> id_of(const Json& value) {
   return id;
 }
 
+bool is_digest(std::string_view text) {
+  return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
 }  // namespace roomcut

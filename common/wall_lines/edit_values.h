@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "common/artefact/json.h"
 
@@ -19,5 +20,8 @@ std::optional<bool> truth_of(const Json& value);
 
 /// The name of a feature: a short text or a whole number; "" for null. Nothing for what cannot be one.
 std::optional<std::string> id_of(const Json& value);
+
+/// Whether a text is the digest of a payload: 64 hexadecimal digits.
+bool is_digest(std::string_view text);
 
 }  // namespace roomcut

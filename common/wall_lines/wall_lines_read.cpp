@@ -10,6 +10,7 @@
 #include "common/artefact/known_artefacts.h"
 #include "common/artefact/limits.h"
 #include "common/errors/codes.h"
+#include "common/wall_lines/edit_values.h"
 #include "common/wall_lines/wall_lines_format.h"
 #include "common/wall_lines/wall_lines_io.h"
 
@@ -96,8 +97,7 @@ void read_member(const Json& member, LineCoordinates coordinates, WallLinesFile&
   file.content.bbox_max = point_from(box.at(2), box.at(3), plan);
   file.content.base_sha256 = member.at("base_sha256").get<std::string>();
   const std::string& base = file.content.base_sha256;  // no digest covers it
-  if (!base.empty() &&
-      (base.size() != 64 || base.find_first_not_of("0123456789abcdef") != std::string::npos)) {
+  if (!base.empty() && !is_digest(base)) {
     throw BadJson("base_sha256 is no digest");
   }
   file.provenance = provenance_from_json(member.at("provenance"));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <numbers>
 
@@ -53,6 +54,26 @@ std::string draw_both(const std::vector<WallLine>& before, const std::vector<Wal
   return svg.str();
 }
 
+Colour colour_of(const SlopedPlane& plane) {
+  return plane.ceiling ? kCeiling : kFloor;
+}
+
+/// An arrow of a metre through the middle of the outline, with the plane's name.
+void draw_uphill(const PlaneFeature& feature, Svg& svg) {
+  const SlopedPlane& plane = feature.plane;
+  const Colour colour = colour_of(plane);
+  const Vec2 middle = middle_of(plane.outline);
+  const Vec2 uphill = plane.gradient.stableNormalized();
+  const Vec2 side(-uphill.y(), uphill.x());
+  const Vec2 tip = middle + 0.5 * uphill;
+  svg.line(middle - 0.5 * uphill, tip, colour, 2);
+  for (const double s : {-0.15, 0.15}) svg.line(tip, tip - 0.2 * uphill + s * side, colour, 2);
+  char text[120] = "";
+  std::snprintf(text, sizeof text, "%.64s %.1f deg", feature.id.c_str(),
+                std::atan(plane.gradient.norm()) * 180 / std::numbers::pi);
+  svg.text(middle + Vec2(0.1, 0.1), text, 12, colour);
+}
+
 }  // namespace
 
 Picture draw_acceptance(const std::vector<WallLine>& detected, const std::vector<WallLine>& accepted) {
@@ -71,22 +92,13 @@ Picture draw_planes(const AcceptedPlanes& planes, const std::vector<WallLine>& l
   Svg svg = extent.canvas();
   for (const WallLine& line : lines) svg.line(line.a, line.b, kWall, 1);
   for (const PlaneFeature& feature : planes.planes) {
-    const SlopedPlane& plane = feature.plane;
-    const PlaneNumbers numbers = numbers_of(plane, planes.frame);
-    const Colour colour = plane.ceiling ? kCeiling : kFloor;
+    const PlaneNumbers numbers = numbers_of(feature.plane, planes.frame);
     char text[120] = "";
     std::snprintf(text, sizeof text, ": %.1f degrees, %.2f m high at its middle", numbers.pitch_deg,
                   numbers.height_m);
-    svg.polygon(plane.outline, colour, 0.25, feature.id + text);
-    const Vec2 middle = middle_of(plane.outline);
-    const Vec2 uphill = plane.gradient.stableNormalized();
-    const Vec2 side(-uphill.y(), uphill.x());
-    const Vec2 tip = middle + 0.5 * uphill;
-    svg.line(middle - 0.5 * uphill, tip, colour, 2);
-    for (const double s : {-0.15, 0.15}) svg.line(tip, tip - 0.2 * uphill + s * side, colour, 2);
-    std::snprintf(text, sizeof text, "%s %.1f deg", feature.id.c_str(), numbers.pitch_deg);
-    svg.text(middle + Vec2(0.1, 0.1), text, 12, colour);
+    svg.polygon(feature.plane.outline, colour_of(feature.plane), 0.25, feature.id + text);
   }
+  for (const PlaneFeature& feature : planes.planes) draw_uphill(feature, svg);
   return {"accept_planes", "accept_planes.svg", "Sloped planes as accepted",
           "Green: ceilings. Orange: floors. Arrows point uphill. Grey: accepted wall lines.", svg.str()};
 }

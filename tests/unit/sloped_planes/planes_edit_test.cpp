@@ -107,6 +107,14 @@ TEST(PlanesEdit, WhatCannotBeMeantIsSaidAndTheRestTaken) {
   EXPECT_EQ(plane_named(file, "e0001").plane.outline.size(), 5U);
 }
 
+TEST(PlanesEdit, ABaseThatIsNoDigestIsNoBase) {
+  json copy = document();
+  copy["roomcut"]["base_sha256"] = "the one of May";
+  const PlanesFile file = edited(copy);
+  EXPECT_TRUE(file.content.base_sha256.empty());
+  EXPECT_EQ(file.warnings.size(), 1U);
+}
+
 TEST(PlanesEdit, WithoutTheMemberCoordinatesAreThoseInWhichThePlanesLieInTheScan) {
   json copy = document();
   copy.erase("roomcut");

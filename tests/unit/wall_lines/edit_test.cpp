@@ -165,6 +165,13 @@ TEST_F(Edit, WithoutTheMemberTheBaseIsTakenWithAWarning) {
   EXPECT_EQ(file.content.base_sha256, "");
 }
 
+TEST_F(Edit, ABaseThatIsNoDigestIsNoBase) {
+  document_["roomcut"]["base_sha256"] = "the one of May";
+  const WallLinesFile file = read();
+  EXPECT_TRUE(warned(file, "base_sha256 is no digest"));
+  EXPECT_EQ(file.content.base_sha256, "");
+}
+
 TEST_F(Edit, AMovedOriginMovesTheLinesAlong) {
   base_.frame.origin[0] += 0.25;
   for (WallLine& line : base_.lines) {
