@@ -10,6 +10,7 @@
 #include "common/errors/codes.h"
 #include "common/errors/error.h"
 #include "common/geometry/preferred_number.h"
+#include "stages/detect_lines/arcs.h"
 #include "stages/detect_lines/column_lines.h"
 #include "stages/detect_lines/free_cells.h"
 #include "stages/detect_lines/jogs.h"
@@ -198,6 +199,15 @@ class LineSearch {
   FreeCells free_;
 };
 
+/// The lines of the cells that are not explained already; `picture`, if any, gets the votes of all.
+std::vector<LineCandidate> search_lines(WallCells& cells, const CellIndices& explained, const Rules& rules,
+                                        const DetectLinesParams& params, HoughPicture* picture) {
+  LineSearch search(cells, rules, params);
+  if (picture != nullptr) *picture = picture_of(search.votes(), rules);
+  search.leave_out(explained);
+  return search.run();
+}
+
 std::vector<double> heights_of(const Slices& slices) {
   std::vector<double> heights;
   for (std::size_t k = 0; k + 1 < slices.levels.size(); ++k) {
@@ -223,12 +233,10 @@ double direction_of(const std::vector<LineCandidate>& lines, double main) {
   return weight > 0 ? main + sum / weight : main;
 }
 
-CellIndices cells_of_no_line(const WallCells& cells, const std::vector<Column>& columns,
+CellIndices cells_of_no_line(const WallCells& cells, const CellIndices& explained,
                              const std::vector<LineCandidate>& lines) {
   std::vector<bool> taken(cells.size(), false);
-  for (const Column& column : columns) {
-    for (const std::uint32_t i : column.cells) taken[i] = true;
-  }
+  for (const std::uint32_t i : explained) taken[i] = true;
   for (const LineCandidate& line : lines) {
     for (const std::uint32_t i : line.support.cells) taken[i] = true;
   }
@@ -239,12 +247,13 @@ CellIndices cells_of_no_line(const WallCells& cells, const std::vector<Column>& 
   return free;
 }
 
-/// Adds the sides of columns, niches and pilasters to the lines.
+/// Adds the sides of columns, niches and pilasters to the lines; `explained` are the cells of columns and
+/// arcs.
 void add_short_lines(const Slices& slices, const WallCells& cells, const std::vector<Column>& columns,
-                     const Rules& rules, std::vector<LineCandidate>& lines) {
+                     const CellIndices& explained, const Rules& rules, std::vector<LineCandidate>& lines) {
   const double theta = direction_of(lines, main_direction(cells));
   std::vector<Side> sides = sides_of_columns(cells, columns, theta, column_fit(slices));
-  const CellIndices free = cells_of_no_line(cells, columns, lines);
+  const CellIndices free = cells_of_no_line(cells, explained, lines);
   const PieceRules pieces{slices.tau_m, slices.noise_m, rules.fit.inlier_m};
   for (Side& side : short_sides(cells, free, lines, pieces)) sides.push_back(std::move(side));
   const double aligned_m = std::max(0.004, 0.6 * slices.noise_m);
@@ -256,6 +265,7 @@ WallLine to_wall_line(const LineCandidate& candidate, const WallCells& cells, st
   const FitQuality fit = quality(cells, candidate.support.cells, candidate.line);
   WallLine wall;
   wall.id = "w" + std::string(4 - std::min<std::size_t>(4, number.size()), '0') + number;
+  if (candidate.arc >= 0) wall.extra_json = "{\"arc_id\":\"a" + std::to_string(candidate.arc + 1) + "\"}";
   if (!candidate.column.empty()) wall.extra_json = "{\"column\":\"" + candidate.column + "\"}";
   wall.a = candidate.line.at(candidate.support.t0);
   wall.b = candidate.line.at(candidate.support.t1);
@@ -300,17 +310,32 @@ DetectLinesResult detect_lines(const Slices& slices, const DetectLinesParams& pa
   if (cells.size() == 0) no_lines(cells, params);
   const Rules rules = derive_rules(slices, cells, params, result.choices);
   std::vector<Column> columns;
-  if (params.short_lines)
+  if (params.short_lines) {
     columns = find_columns(cells, {slices.noise_m, heights_of(slices), column_fit(slices)});
-  LineSearch search(cells, rules, params);
-  result.hough = picture_of(search.votes(), rules);
-  for (const Column& column : columns) search.leave_out(column.cells);
-  std::vector<LineCandidate> found = search.run();
+  }
+  CellIndices explained;
+  for (const Column& column : columns) {
+    explained.insert(explained.end(), column.cells.begin(), column.cells.end());
+  }
+  std::vector<LineCandidate> found = search_lines(cells, explained, rules, params, &result.hough);
+  std::vector<Arc> arcs;
+  if (params.arcs) arcs = find_arcs(cells, found, explained, {slices.tau_m, slices.noise_m});
+  if (!arcs.empty()) {  // the lines of all else
+    for (const Arc& arc : arcs) explained.insert(explained.end(), arc.cells.begin(), arc.cells.end());
+    found = search_lines(cells, explained, rules, params, nullptr);
+  }
   const std::size_t before = found.size();
   found = merge_near_duplicates(cells, std::move(found), rules.merge, rules.fit);
   result.merged = before - found.size();
-  if (found.empty()) no_lines(cells, params);
-  if (params.short_lines) add_short_lines(slices, cells, columns, rules, found);
+  result.arcs = arcs.size();
+  if (found.empty() && arcs.empty()) no_lines(cells, params);
+  if (params.short_lines) add_short_lines(slices, cells, columns, explained, rules, found);
+  for (std::size_t k = 0; k < arcs.size(); ++k) {
+    for (LineCandidate& chord : chords_of(cells, arcs[k], slices.noise_m)) {
+      chord.arc = static_cast<int>(k);
+      found.push_back(std::move(chord));
+    }
+  }
 
   result.lines.frame = slices.frame;
   result.lines.bbox_min = slices.bbox_min.head<2>();

@@ -34,6 +34,7 @@ struct DetectLinesResult {
   HoughPicture hough;
   std::vector<DetectLinesChoice> choices;
   std::size_t merged = 0;  ///< near-duplicates that were joined
+  std::size_t arcs = 0;    ///< curved walls, whose chords are among the lines
 };
 
 /// Wall lines of all wall slices together (paper §2, wall directions): cells that lie linear vote for a

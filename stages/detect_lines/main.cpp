@@ -16,6 +16,7 @@ void report(StageRun& run, const DetectLinesResult& result) {
   for (const WallLine& line : result.lines.lines) support_m += line.support_m;
   run.count("wall lines", static_cast<double>(result.lines.lines.size()));
   run.count("covered length", support_m, "m");
+  run.count("curved walls", static_cast<double>(result.arcs));
   run.count("near-duplicates joined", static_cast<double>(result.merged));
 }
 
@@ -24,7 +25,7 @@ void report(StageRun& run, const DetectLinesResult& result) {
 int main(int argc, char** argv) {
   DetectLinesParams params;
   const StageInfo info{"detect_lines",
-                       9,
+                       10,
                        "Finds the wall lines of all wall slices with a Hough transform.",
                        {{"slices", "levels and wall slices, from slice"}},
                        {{"lines-out", "wall lines, to be edited or taken as they are"},

@@ -13,6 +13,7 @@ struct LineCandidate {
   Line2 line;
   Support support;
   std::string column = {};  ///< name of the column of which it is a side
+  int arc = -1;             ///< index of the arc of which it is a chord; -1 = of none
 };
 
 struct MergeRules {

@@ -18,6 +18,7 @@ struct DetectLinesParams {
   std::optional<double> hough_distance_m;  ///< accumulator step [m]
   bool wider = true;                       ///< 4 and 8 tau and the points' normals are tried after 2 tau
   bool short_lines = true;                 ///< columns, niches and pilasters too
+  bool arcs = true;                        ///< curved walls are circles, in chords
   std::string votes = "coverage";          ///< "coverage": by covered length; "equal": each fitted line once
   std::string search = "greedy";           ///< "greedy", or "mean_shift" over the accumulator
   double linearity = 0.1;                  ///< paper: lambda2 / lambda1 below this is a piece of wall
@@ -42,6 +43,7 @@ inline ParameterTable parameters(DetectLinesParams& p) {
           "short_lines", p.short_lines,
           "Sides of columns, niches and pilasters are lines, however short; false: those of min_support_m "
           "alone."),
+      boolean("arcs", p.arcs, "Curved walls are circles, in chords; false: each piece is a line of its own."),
       choice(
           "votes", p.votes, {"coverage", "equal"},
           "coverage: a cell votes by the length of wall it speaks for; equal: the paper's, once for the line "

@@ -194,7 +194,7 @@ TEST_F(ParamsIo, yaml_block_reads_back_to_the_same_values) {
 
 TEST(KnownStages, are_those_of_the_pipeline_in_its_order) {
   EXPECT_EQ(known_stages().front(), "ingest");
-  EXPECT_EQ(known_stages().size(), 15U);
+  EXPECT_EQ(known_stages().size(), 16U);
 }
 
 }  // namespace roomcut::test
