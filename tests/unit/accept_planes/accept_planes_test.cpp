@@ -15,6 +15,7 @@ SlopedPlane rising(double low, double high) {
   plane.gradient = {0.5, 0};
   plane.c = low;
   plane.outline = {{0, 0}, {2 * (high - low), 0}, {2 * (high - low), 3}, {0, 3}};
+  plane.area_m2 = 20;
   return plane;
 }
 
