@@ -18,6 +18,7 @@ constexpr double kCorner_m = 0.08;     // a line across so near an end closes it
 constexpr double kSeen = 0.4;          // share of a reveal
 constexpr double kCorners_m = 0.05;    // of its depth that lies in cells of both walls
 constexpr double kSamePlace_m = 0.15;  // reveals nearer than this are one, seen in several slices
+constexpr double kHigh = 0.7;      // share of a slice's evidence that a short piece covers: up to the ceiling
 constexpr double kBehind_m = 0.6;  // along what stands before a wall: where the wall is looked for behind it
 constexpr double kGoesOn = 0.4;    // share of that on which the wall is seen
 
@@ -122,7 +123,8 @@ class JogSearch {
   void drop_open_pieces() {
     for (std::size_t k = short_from_; k < pieces_.size(); ++k) {
       const WallPiece& piece = pieces_[k];
-      alive_[k] = upward_.reaches_ceiling(piece.line, piece.t0, piece.t1, piece.slice);
+      alive_[k] = coverage(piece.cells) >= kHigh &&
+                  upward_.reaches_ceiling(piece.line, piece.t0, piece.t1, piece.slice);
     }
     for (bool changed = true; changed;) {
       changed = false;
@@ -199,6 +201,13 @@ class JogSearch {
     } else if (covered_m(between) > covered_m(known->support.cells)) {
       *known = reveal;
     }
+  }
+
+  /// Mean share of the height of their slice's evidence over which cells were seen.
+  double coverage(const CellIndices& some) const {
+    double sum = 0;
+    for (const std::uint32_t i : some) sum += cells_.coverage[i];
+    return some.empty() ? 0 : sum / static_cast<double>(some.size());
   }
 
   double covered_m(const CellIndices& some) const {
