@@ -16,7 +16,7 @@ using namespace roomcut::refine_lines;
 StageInfo info() {
   StageInfo stage;
   stage.name = "refine_lines";
-  stage.revision = 10;
+  stage.revision = 11;
   stage.summary = "Refines the wall lines that carry a wall in the first cut, on raw points";
   stage.inputs = {{"lines", "Accepted wall lines"},
                   {"cells", "Cell complex of the first pass"},
@@ -35,6 +35,7 @@ void report(StageRun& run, const Refinement& refinement) {
   run.count("merged", refinement.merged);
   run.count("split off", refinement.split);
   run.count("bends", refinement.bends);
+  run.count("curved walls", refinement.arcs);
   run.count("directions", refinement.classes);
   run.count("observations", refinement.observations);
   run.count("points", static_cast<double>(refinement.points));
