@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "common/wall_lines/describe_changes.h"
+#include "stages/accept_lines/arc_edits.h"
 
 namespace roomcut::accept_lines {
 
@@ -45,6 +46,9 @@ Acceptance accept_lines(const WallLines& detected, const std::string& detection_
                         const std::optional<WallLines>& edit) {
   Acceptance result;
   result.lines = edit ? *edit : detected;
+  if (edit) {
+    result.arcs = apply_arc_edits(detected, result.lines);
+  }
   result.base_moved = edit && !edit->base_sha256.empty() && edit->base_sha256 != detection_sha256;
   if (!result.base_moved) {
     result.lines.base_sha256 = detection_sha256;
@@ -53,7 +57,7 @@ Acceptance accept_lines(const WallLines& detected, const std::string& detection_
     result.only_edited = without_partner(edit->lines, detected.lines);
   }
   if (edit) {
-    result.changes = compare_lines(detected.lines, edit->lines);
+    result.changes = compare_lines(detected.lines, result.lines.lines);
   }
   const auto locked = [](const WallLine& line) { return line.locked; };
   result.locked =

@@ -14,6 +14,7 @@ namespace roomcut::accept_lines {
 struct Acceptance {
   WallLines lines;          ///< normalised: the edit's lines if there is an edit, else the detected ones
   LineDifferences changes;  ///< of the edit against the detection; empty without an edit
+  std::vector<std::string> arcs;  ///< what became of edited curved walls, in words
   int locked = 0;
   bool base_moved = false;              ///< the edit began from another detection than today's
   std::vector<WallLine> only_detected;  ///< then: lines of the detection that the edit has nothing near

@@ -35,6 +35,9 @@ void body(StageRun& run) {
   if (accepted.base_moved) {
     run.warn(run.input("edit").string() + ": " + describe_moved_base(accepted, detected.payload_sha256));
   }
+  for (const std::string& arc : accepted.arcs) {
+    run.warn(run.input("edit").string() + ": " + arc);
+  }
   write_wall_lines(run.output("lines-out"), accepted.lines, run.provenance());
 
   run.count("lines", static_cast<double>(accepted.lines.lines.size()));

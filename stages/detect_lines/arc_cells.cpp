@@ -19,7 +19,7 @@ Vec2 position(const WallCells& cells, std::uint32_t i) {
 }  // namespace
 
 double along(const Bend& bend, const Vec2& p) {
-  const Vec2 from = (bend.curvature > 0 ? -1 : 1) * bend.normal();
+  const Vec2 from = (bend.curvature > 0 ? -1 : 1) * bend.normal;
   const Vec2 to = p - bend.centre();
   return bend.radius() * std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
 }

@@ -92,7 +92,7 @@ class ArcSearch {
         if ((position(cells_, i) - position(cells_, seed)).norm() < kSeeds_m) tried_[i] = true;
       }
       if (chain.size() < 6) return std::nullopt;
-      Bend bend{position(cells_, seed), cells_.theta[seed], 0};
+      Bend bend{position(cells_, seed), Line2{cells_.theta[seed], 0}.normal(), 0};
       bend = fit_bend(cells_, chain, fit_bend(cells_, chain, bend, cauchy_m_, true), cauchy_m_);
       const double sagitta = 0.5 * std::abs(bend.curvature) * window_m * window_m;
       if (sagitta < std::max(kSagitta_m, 0.5 * rules_.noise_m)) continue;

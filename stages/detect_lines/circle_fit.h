@@ -9,12 +9,11 @@ namespace roomcut::detect_lines {
 /// are no different in kind, and both fit well.
 struct Bend {
   Vec2 point{0, 0};
-  double theta = 0;      ///< of the normal at `point` [rad]
+  Vec2 normal{1, 0};     ///< at `point`, of length 1
   double curvature = 0;  ///< positive: the centre lies where the normal points to [1/m]
 
-  Vec2 normal() const { return {std::cos(theta), std::sin(theta)}; }
   double radius() const { return 1 / std::abs(curvature); }
-  Vec2 centre() const { return point + normal() / curvature; }
+  Vec2 centre() const { return point + normal / curvature; }
   /// Signed distance of p, positive on the side the normal points to [m].
   double distance(const Vec2& p) const;
 };

@@ -10,6 +10,7 @@
 #include "common/errors/codes.h"
 #include "common/errors/error.h"
 #include "common/geometry/preferred_number.h"
+#include "common/wall_lines/wall_arc.h"
 #include "stages/detect_lines/arcs.h"
 #include "stages/detect_lines/column_lines.h"
 #include "stages/detect_lines/free_cells.h"
@@ -265,7 +266,6 @@ WallLine to_wall_line(const LineCandidate& candidate, const WallCells& cells, st
   const FitQuality fit = quality(cells, candidate.support.cells, candidate.line);
   WallLine wall;
   wall.id = "w" + std::string(4 - std::min<std::size_t>(4, number.size()), '0') + number;
-  if (candidate.arc >= 0) wall.extra_json = "{\"arc_id\":\"a" + std::to_string(candidate.arc + 1) + "\"}";
   if (!candidate.column.empty()) wall.extra_json = "{\"column\":\"" + candidate.column + "\"}";
   wall.a = candidate.line.at(candidate.support.t0);
   wall.b = candidate.line.at(candidate.support.t1);
@@ -274,6 +274,12 @@ WallLine to_wall_line(const LineCandidate& candidate, const WallCells& cells, st
   wall.sigma_offset_m = fit.sigma_offset_m;
   wall.sigma_angle_rad = fit.sigma_angle_rad;
   return wall;
+}
+
+WallArc wall_arc(const Arc& arc, int index) {
+  const std::string number = std::to_string(index + 1);
+  return {"a" + std::string(4 - std::min<std::size_t>(4, number.size()), '0') + number, arc.centre,
+          arc.radius_m};
 }
 
 /// The wall slices of a line that was seen in slices at a roof's steps only: there it is a contour of the
@@ -342,6 +348,9 @@ DetectLinesResult detect_lines(const Slices& slices, const DetectLinesParams& pa
   result.lines.bbox_max = slices.bbox_max.head<2>();
   for (std::size_t i = 0; i < found.size(); ++i) {
     result.lines.lines.push_back(to_wall_line(found[i], cells, i));
+    if (const int arc = found[i].arc; arc >= 0) {
+      set_arc(result.lines.lines.back(), wall_arc(arcs[static_cast<std::size_t>(arc)], arc), slices.frame);
+    }
     result.lines.lines.back().levels = roof_slices(found[i], cells, slices.levels);
     for (const std::uint32_t cell : found[i].support.cells) {
       if (cells.line[cell] < 0) cells.line[cell] = static_cast<std::int32_t>(i);

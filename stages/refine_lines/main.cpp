@@ -35,6 +35,7 @@ void report(StageRun& run, const Refinement& refinement) {
   run.count("merged", refinement.merged);
   run.count("split off", refinement.split);
   run.count("bends", refinement.bends);
+  run.count("curved walls", refinement.arcs);
   run.count("directions", refinement.classes);
   run.count("observations", refinement.observations);
   run.count("points", static_cast<double>(refinement.points));

@@ -10,7 +10,9 @@
 #include <set>
 
 #include "common/errors/codes.h"
+#include "common/wall_lines/wall_arc.h"
 #include "stages/refine_lines/adjust.h"
+#include "stages/refine_lines/arc_fit.h"
 #include "stages/refine_lines/line_faces.h"
 #include "stages/refine_lines/line_item.h"
 #include "stages/refine_lines/merge_lines.h"
@@ -49,6 +51,8 @@ struct LineRefiner::State {
   void solve_each(std::vector<LineItem>& items) const;
   void solve_together(std::vector<LineItem>& items);
   bool merge_near(std::vector<LineItem>& items);
+  /// Refines the chords of one arc and adds them to the result, their shifts to `shifts`.
+  void add_arc(std::vector<LineItem>& chords, std::vector<double>& shifts);
   LinePrior prior_of(const LineItem& item) const {
     return item.users && params.edited_lines == "prior" ? kUsersPrior : LinePrior{band, kLoosePrior_rad};
   }
@@ -83,6 +87,16 @@ LineRefiner::LineRefiner(const WallLines& lines, const CellComplex& complex,
   for (std::size_t i = 0; i < complex.lines.size(); ++i) {
     by_id.emplace(complex.lines[i].wall_id, i);
   }
+  const auto area_of = [&](const WallLine& wall) {
+    const auto found = by_id.find(wall.id);
+    return found == by_id.end() ? 0.0 : s.faces[found->second].area_m2;
+  };
+  std::map<std::string, double> arc_area;  // the chords of an arc stay together
+  for (const WallLine& wall : lines.lines) {
+    if (const auto arc = arc_of(wall, lines.frame)) {
+      arc_area[arc->id] += area_of(wall);
+    }
+  }
   std::vector<bool> active(complex.lines.size(), false);
   bool any_surface = false;
   double tallest = 0;
@@ -92,7 +106,8 @@ LineRefiner::LineRefiner(const WallLines& lines, const CellComplex& complex,
   for (const WallLine& wall : lines.lines) {
     const auto found = by_id.find(wall.id);
     const std::size_t i = found == by_id.end() ? complex.lines.size() : found->second;
-    const double area = i < complex.lines.size() ? s.faces[i].area_m2 : 0;
+    const auto arc = arc_of(wall, lines.frame);
+    const double area = arc ? arc_area.at(arc->id) : area_of(wall);
     any_surface = any_surface || area > 0;
     const double enough = std::min(params.min_interface_m2, kShareOfShort * wall.length() * tallest);
     if (area < enough && !is_users(wall) && !s.one_sided.contains(wall.id)) {
@@ -216,6 +231,23 @@ bool LineRefiner::State::merge_near(std::vector<LineItem>& items) {
   return merged_any;
 }
 
+void LineRefiner::State::add_arc(std::vector<LineItem>& chords, std::vector<double>& shifts) {
+  double prior_m = band;
+  for (LineItem& chord : chords) {
+    chord.constant = chord.wall.locked || (chord.users && params.edited_lines == "locked");
+    prior_m = std::min(prior_m, prior_of(chord).shift_m);
+    result.observations += static_cast<int>(chord.observations.size());
+    result.held += chord.constant ? 1 : 0;
+  }
+  const std::vector<WallLine> refined_chords = refine_arc(chords, kept.frame, prior_m);
+  for (std::size_t k = 0; k < refined_chords.size(); ++k) {
+    if (!chords[k].constant) {
+      shifts.push_back(std::abs(refined_chords[k].line().distance(chords[k].wall.centre())));
+    }
+    result.lines.lines.push_back(refined_chords[k]);
+  }
+}
+
 Refinement LineRefiner::finish() {
   State& s = *state_;
   std::vector<LineItem> items;
@@ -236,6 +268,7 @@ Refinement LineRefiner::finish() {
     }
   });
   s.result.points = s.observer->points();
+  std::map<std::string, std::vector<LineItem>> arcs = take_arcs(items, s.kept.frame);
   s.result.split = split_items(
       s.complex, s.apart, [&](const LineItem& item) { return s.prior_of(item); }, s.result.one_sided, items);
   s.result.bends = split_at_hinges(s.complex, items);
@@ -257,6 +290,10 @@ Refinement LineRefiner::finish() {
       shifts.push_back(std::abs(s.result.lines.lines.back().line().distance(item.wall.centre())));
     }
   }
+  for (auto& [id, chords] : arcs) {
+    s.add_arc(chords, shifts);
+  }
+  s.result.arcs = static_cast<int>(arcs.size());
   s.result.refined = static_cast<int>(shifts.size());
   if (!shifts.empty()) {
     std::sort(shifts.begin(), shifts.end());

@@ -24,6 +24,7 @@ struct Refinement {
   int bends = 0;    ///< walls without a line of their own, found where others leave their line
   int refined = 0;  ///< lines that were adjusted
   int held = 0;     ///< lines that stayed as they came: locked, or too few observations
+  int arcs = 0;     ///< curved walls, each refined as one circle
   int classes = 0;  ///< groups of parallel and perpendicular walls
   int observations = 0;
   std::uint64_t points = 0;                        ///< points that were observed
