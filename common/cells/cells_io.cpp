@@ -56,6 +56,7 @@ void write_lines(H5Writer& file, const std::vector<CellComplex::Line>& lines) {
              "layers of line i = layers[layers_offset[i] .. layers_offset[i+1])");
   file.write("lines/layers", layers, "1", "layers where the line may carry a wall; none = all");
   std::vector<std::int32_t> plane;
+  plane.reserve(lines.size());
   for (const CellComplex::Line& line : lines) {
     plane.push_back(line.plane);
   }

@@ -101,8 +101,7 @@ TEST(DetectLines, ContoursOfARoofThatNoPlaneExplainsAreLinesOfItsSlicesOnly) {
     ASSERT_TRUE(line.levels) << y;
     ++contours;
     for (const int k : *line.levels) {
-      const double roof =
-          corrugated({0, y});  // in the slice: its foot in the upper end of the lowest one
+      const double roof = corrugated({0, y});  // in the slice: its foot in the upper end of the lowest one
       EXPECT_GT(roof, slices.levels[static_cast<std::size_t>(k)].z - 0.15);
       EXPECT_LT(roof, slices.levels[static_cast<std::size_t>(k) + 1].z + 0.15);
     }
