@@ -127,11 +127,12 @@ def evaluate(build, scene, work, truth, truth_json):
     cells = [os.path.join(work, "90_final", name + ".h5") for name in ("cells", "labels", "data_terms")]
     cloud = os.path.join(work, "10_ingest", "cloud.h5")
     surfaces = os.path.join(work, "92_fit_surfaces", "surfaces.h5")
-    key = "\n".join(map(identity, (program, model, truth, truth_json, cloud, surfaces, *cells)))
+    summary = os.path.join(work, "summary.json")
+    key = "\n".join(map(identity, (program, model, summary, truth, truth_json, cloud, surfaces, *cells)))
     if not is_fresh(stamp, key, [scores, truth_cells]):
         coarse = ["--set", "sample_spacing_m=0.1", "--set", "column_spacing_m=0.1"] if "mu_m" in scene else []
         run([program, "-q", "--threads", "1", "--work", work, "--truth", truth, "--truth-json", truth_json, *coarse,
-             "--cells", cells[0], "--labels", cells[1], "--terms", cells[2], "--surfaces", surfaces, "--cloud", cloud, "--cells-out", truth_cells])
+             "--cells", cells[0], "--labels", cells[1], "--terms", cells[2], "--surfaces", surfaces, "--summary", summary, "--cloud", cloud, "--cells-out", truth_cells])
         write_if_changed(stamp, key)
     return read_json(scores)
 
@@ -165,12 +166,13 @@ def row_of(scores, truth, cells_m3):
 
 
 def elements_of(scores):
-    """Of slopes, columns and niches; counts and areas, so that a group's shares are those of all its buildings together."""
-    volume, slopes, columns, niches = scores["volume"] or {}, scores["slopes"], scores["columns"] or {}, scores["niches"]
+    """Of slopes, columns, niches and curved walls; counts and areas, so that a group's shares are those of all its buildings together."""
+    volume, slopes, columns, niches, arcs = scores["volume"] or {}, scores["slopes"], scores["columns"] or {}, scores["niches"], scores["arcs"] or {}
     return {"volume_error": share(volume.get("model_m3", 0.0) - volume["truth_m3"], volume["truth_m3"]) if volume else None,
             "slopes_m2": slopes["area_m2"], "angle_deg": slopes["angle_median_deg"], "angle_p95_deg": slopes["angle_p95_deg"],
             "slopes_close": slopes["within_1deg_2cm"], "columns": columns.get("truth", 0), "columns_found": columns.get("found", 0),
             "columns_false": columns.get("false", 0), "floor_m2": columns.get("floor_m2", 0.0), "niches": niches["truth"],
+            "arcs": arcs.get("truth", 0), "arcs_found": arcs.get("found", 0), "arcs_false": arcs.get("false", 0), "arcs_close": arcs.get("close", 0),
             "niches_m2": niches["area_m2"], "niches_near_m2": niches["area_m2"] * (niches["within_2cm"] or 0.0)}
 
 

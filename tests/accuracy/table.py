@@ -42,7 +42,8 @@ def group_rows(rows):
 
 
 # Of the elements: sums over a group; means; the rest are means weighted by the slopes' area.
-ELEMENT_SUMS = ("slopes_m2", "columns", "columns_found", "columns_false", "floor_m2", "niches", "niches_m2", "niches_near_m2")
+ELEMENT_SUMS = ("slopes_m2", "columns", "columns_found", "columns_false", "floor_m2", "niches", "niches_m2", "niches_near_m2",
+                "arcs", "arcs_found", "arcs_false", "arcs_close")
 OF_SLOPES = ("angle_deg", "angle_p95_deg", "slopes_close")
 
 
@@ -59,7 +60,7 @@ def group_elements(members):
 
 
 def has_elements(row):
-    return bool(row.get("elements")) and any(row["elements"][key] > 0 for key in ("slopes_m2", "columns", "niches"))
+    return bool(row.get("elements")) and any(row["elements"][key] > 0 for key in ("slopes_m2", "columns", "niches", "arcs"))
 
 
 def element_line(row, width):
@@ -70,17 +71,20 @@ def element_line(row, width):
                      number(None if values["slopes_close"] is None else 100 * values["slopes_close"], 7, 1),
                      f"{values['columns_found']:>5}/{values['columns']:<5}", f"{values['columns_false']:>5}",
                      number(1000 * values["columns_false"] / values["floor_m2"] if values["floor_m2"] else None, 7, 2),
-                     f"{values['niches']:>6}", percent(values["niches_near_m2"], values["niches_m2"])])
+                     f"{values['niches']:>6}", percent(values["niches_near_m2"], values["niches_m2"]),
+                     f"{values['arcs_found']:>5}/{values['arcs']:<5}", f"{values['arcs_false']:>5}",
+                     percent(2 * values["arcs_found"], values["arcs"] + values["arcs_found"] + values["arcs_false"]), percent(values["arcs_close"], values["arcs_found"])])
 
 
 def element_lines(rows, groups):
-    """Slopes, columns and niches: what the first table does not show of them. Of a group the worst volume, and the rest of all together."""
+    """Slopes, columns, niches and curved walls: what the first table does not show of them. Of a group the worst volume, and the rest of all together."""
     some = [row for row in rows if has_elements(row) and shown(row)]
     if not some:
         return []
     width = max(len(row["name"]) for row in some)
     head_line = " ".join([f"{'elements':<{width}}", f"{'volume %':>8}", f"{'angle°':>7}", f"{'95 %':>7}", f"{'close%':>7}", f"{'columns':<11}", f"{'false':>5}",
-                          f"{'/1000m²':>7}", f"{'niches':>6}", f"{'2 cm %':>7}"])
+                          f"{'/1000m²':>7}", f"{'niches':>6}", f"{'2 cm %':>7}",
+                          f"{'arcs':<11}", f"{'false':>5}", f"{'F1 %':>7}", f"{'close %':>7}"])
     return ["", head_line, *(element_line(row, width) for row in some), "", *(element_line(group, width) for group in groups if has_elements(group))]
 
 
