@@ -30,9 +30,10 @@ constexpr std::array<double, 3> kWindows_m = {0.3, 0.8, 2.0};
 constexpr double kSagitta_m = 0.004;  // of a window that may be part of an arc
 constexpr double kInlierAngle = 20 * kDegree;
 constexpr double kClose_m = 0.15;  // cells nearer than this are one run
-constexpr int kGrowths = 16, kSettlings = 5;
+constexpr int kGrowths = 16, kSettlings = 5, kWideRounds = 2;
 constexpr int kOffInRow = 4;
-constexpr double kMiddle = 0.5;   // share of a stretch that is surely of the arc
+// Shares of a stretch that are surely of the arc: most fits best, fewer where the stretch runs far beyond it.
+constexpr std::array<double, 2> kMiddles = {0.7, 0.5};
 constexpr double kClosing = 0.2;  // share of a circle that may be missing from a whole one
 
 Vec2 position(const WallCells& cells, std::uint32_t i) {
@@ -139,7 +140,11 @@ class ArcSearch {
       if (group.size() == before) break;
       before = group.size();
     }
-    return is_possible(bend) ? judged(bend, stretch) : std::nullopt;
+    if (!is_possible(bend)) return std::nullopt;
+    for (const double middle : kMiddles) {
+      if (std::optional<Arc> arc = judged(middle, bend, stretch)) return arc;
+    }
+    return std::nullopt;
   }
 
   CellIndices within(const Bend& bend, CellIndices cells, const Stretch& stretch) const {
@@ -214,25 +219,26 @@ class ArcSearch {
 
   /// Fits the circle to the middle of the stretch, then to all that lies on it from there on: a straight wall
   /// that goes on from an arc leaves it slowly.
-  bool settle(Bend& bend, Stretch& stretch) const {
+  bool settle(double middle, Bend& bend, Stretch& stretch) const {
     const Stretch whole = stretch;
-    const double spare = 0.5 * (1 - kMiddle) * whole.length();
+    const double spare = 0.5 * (1 - middle) * whole.length();
     stretch = {whole.low + spare, whole.high - spare};
     for (int round = 0; round < kSettlings; ++round) {
       const CellIndices group = on_circle(bend, stretch);
       if (group.size() < 6) return false;
       bend = fit_bend(cells_, group, bend, cauchy_m_);
       if (!is_possible(bend)) return false;
-      stretch = on_it_from_middle(bend, whole);
+      stretch = on_it_from_middle(middle, bend, whole, round < kWideRounds ? 2 : 1);
     }
     return true;
   }
 
-  Stretch on_it_from_middle(const Bend& bend, const Stretch& whole) const {
+  /// `wide`: how many times farther off still is on the circle: the first fits are worse.
+  Stretch on_it_from_middle(double middle, const Bend& bend, const Stretch& whole, double wide) const {
     const std::vector<ArcBin> bins = bins_of(bend, whole);
     const double half = 0.5 * whole.length() / static_cast<double>(bins_in(whole));
-    const double limit = std::max(0.0025, 0.6 * rules_.noise_m);
-    const double spare = 0.5 * (1 - kMiddle) * whole.length();
+    const double limit = wide * std::max(0.0025, 0.6 * rules_.noise_m);
+    const double spare = 0.5 * (1 - middle) * whole.length();
     Stretch stretch{whole.low + spare, whole.high - spare};
     const auto follow = [&](auto begin, auto end, auto is_beyond, auto take) {
       int off = 0;  // in a row: some may be of something before the wall
@@ -254,8 +260,8 @@ class ArcSearch {
     return stretch;
   }
 
-  std::optional<Arc> judged(Bend bend, Stretch stretch) const {
-    if (!settle(bend, stretch)) return std::nullopt;
+  std::optional<Arc> judged(double middle, Bend bend, Stretch stretch) const {
+    if (!settle(middle, bend, stretch)) return std::nullopt;
     const double radius = bend.radius();
     const double sweep = stretch.length() / radius;
     const std::vector<ArcBin> bins = without_outliers(bins_of(bend, stretch));

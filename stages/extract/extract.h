@@ -11,6 +11,7 @@
 #include "common/mesh/mesh_check.h"
 #include "common/openings/opening.h"
 #include "stages/extract/build_surface.h"
+#include "stages/extract/curved_walls.h"
 #include "stages/extract/params.h"
 #include "stages/extract/rooms.h"
 #include "stages/extract/storeys.h"
@@ -28,9 +29,10 @@ struct ModelOpening {
 
 /// The model: the border of the empty cells (paper §2, the result of the labelling), and what it measures.
 struct Model {
-  MergedSurface surface;       ///< local metres; normals point out of the empty space
-  std::vector<Space> storeys;  ///< ascending
-  std::vector<Space> rooms;    ///< by storey, then by volume; without the openings between them
+  MergedSurface surface;                 ///< local metres; normals point out of the empty space
+  std::vector<Space> storeys;            ///< ascending
+  std::vector<Space> rooms;              ///< by storey, then by volume; without the openings between them
+  std::vector<CurvedWall> curved_walls;  ///< by id; empty until find_curved_walls() was asked
   CellRooms cell_rooms;  ///< of the given complex: a cell that openings cut has those of its largest part
   std::vector<UnknownSpace> unknown_spaces;  ///< by storey, then by volume: no part of the surface
   std::vector<ModelOpening> openings;

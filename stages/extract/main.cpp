@@ -7,6 +7,7 @@
 #include "common/cli/run_stage.h"
 #include "common/errors/codes.h"
 #include "common/openings/openings_io.h"
+#include "common/wall_lines/wall_lines_io.h"
 #include "stages/extract/extract.h"
 #include "stages/extract/model_files.h"
 #include "stages/extract/params.h"
@@ -19,13 +20,14 @@ using namespace roomcut::extract;
 StageInfo info() {
   StageInfo stage;
   stage.name = "extract";
-  stage.revision = 8;
+  stage.revision = 9;
   stage.summary = "Turns the labelled cells into a closed model: model.ply, model.obj, summary.json";
   stage.inputs = {{"cells", "Cell decomposition"},
                   {"weights", "Evidence on the faces"},
                   {"terms", "Evidence and data term per cell"},
                   {"labels", "Empty and solid cells"},
                   {"surfaces", "True floors and ceilings; absent: all lie at their levels", true},
+                  {"lines", "Wall lines that the cells were cut with: names curved walls", true},
                   {"openings", "Doors and passages; absent: every wall stays closed", true}};
   stage.outputs = {{"ply", "Triangles, with kind, storey and region"},
                    {"obj", "Polygons, grouped per storey and kind"},
@@ -60,6 +62,10 @@ void body(StageRun& run, const ExtractParams& params) {
                      "the model fails its check: " + model.fault,
                      "please report it with " + rejected.string() + " and the .h5 files beside the labels");
   }
+  if (run.has_input("lines")) {
+    model.curved_walls = find_curved_walls(read_wall_lines(run.input("lines")).content, cells.complex,
+                                           labels.label, model.cell_rooms.storey);
+  }
   list_unknown_spaces(cells.complex, labels, weights, terms, params, model);
   write_rooms(run.output("rooms"), model.cell_rooms, cells, run.provenance());
   write_model_ply(run.output("ply"), model, cells.complex.frame);
@@ -69,6 +75,7 @@ void body(StageRun& run, const ExtractParams& params) {
   run.count("storeys", static_cast<double>(model.storeys.size()));
   run.count("rooms", static_cast<double>(model.rooms.size()));
   run.count("unknown spaces", static_cast<double>(model.unknown_spaces.size()));
+  run.count("curved walls", static_cast<double>(model.curved_walls.size()));
   run.count("openings", static_cast<double>(model.openings.size()));
   for (const std::string& refused : model.refused) {
     run.warn("opening " + refused + "; it stays closed");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <string>
 
@@ -76,6 +77,23 @@ Json opening_json(const ModelOpening& item, const ScanCoordinates& scan) {
           {"volume_m3", item.volume_m3}};
 }
 
+Json curved_json(const CurvedWall& wall, const ScanCoordinates& scan) {
+  const Vec2 centre = scan.plan_to_scan(wall.centre);
+  const Vec2 x = scan.plan_turn() * Vec2(1, 0);
+  const double turn = std::atan2(x.y(), x.x());  // of a levelled scan's plan
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  return {{"arc_id", wall.id},
+          {"centre_m", {centre.x(), centre.y()}},
+          {"radius_m", wall.radius_m},
+          {"from_deg", kDegrees * (wall.from + turn)},
+          {"to_deg", kDegrees * (wall.to + turn)},
+          {"z0_m", scan.height_to_scan(wall.centre, wall.z0)},
+          {"z1_m", scan.height_to_scan(wall.centre, wall.z1)},
+          {"area_m2", wall.area_m2},
+          {"storeys", wall.storeys},
+          {"wall_ids", wall.wall_ids}};
+}
+
 Json check_json(const Model& model) {
   const MeshCheck& check = model.check;
   return {{"closed", check.closed()},
@@ -118,6 +136,10 @@ Json summary_json(const Model& model, const CellComplex& complex, const Labels& 
   for (const ModelOpening& opening : model.openings) {
     openings.push_back(opening_json(opening, scan));
   }
+  Json curved = Json::array();
+  for (const CurvedWall& wall : model.curved_walls) {
+    curved.push_back(curved_json(wall, scan));
+  }
   const double area = std::accumulate(model.storeys.begin(), model.storeys.end(), 0.0,
                                       [](double sum, const Space& storey) { return sum + storey.area_m2; });
   std::size_t polygons = 0;
@@ -129,6 +151,7 @@ Json summary_json(const Model& model, const CellComplex& complex, const Labels& 
       {"rooms", rooms},
       {"unknown_spaces", unknown},
       {"openings", openings},
+      {"curved_walls", curved},
       {"totals",
        {{"area_m2", area},
         {"volume_m3", model.empty_m3},

@@ -128,11 +128,12 @@ def evaluate(build, scene, work, truth, truth_json):
     cells = [os.path.join(work, "90_final", name + ".h5") for name in ("cells", "labels", "data_terms")]
     cloud = os.path.join(work, "10_ingest", "cloud.h5")
     surfaces = os.path.join(work, "92_fit_surfaces", "surfaces.h5")
-    key = "\n".join(map(identity, (program, model, truth, truth_json, cloud, surfaces, *cells)))
+    summary = os.path.join(work, "summary.json")
+    key = "\n".join(map(identity, (program, model, summary, truth, truth_json, cloud, surfaces, *cells)))
     if not is_fresh(stamp, key, [scores, truth_cells]):
         coarse = ["--set", "sample_spacing_m=0.1", "--set", "column_spacing_m=0.1"] if "mu_m" in scene else []
         run([program, "-q", "--threads", "1", "--work", work, "--truth", truth, "--truth-json", truth_json, *coarse,
-             "--cells", cells[0], "--labels", cells[1], "--terms", cells[2], "--surfaces", surfaces, "--cloud", cloud, "--cells-out", truth_cells])
+             "--cells", cells[0], "--labels", cells[1], "--terms", cells[2], "--surfaces", surfaces, "--summary", summary, "--cloud", cloud, "--cells-out", truth_cells])
         write_if_changed(stamp, key)
     return read_json(scores)
 
@@ -166,8 +167,8 @@ def row_of(scores, truth, cells_m3):
 
 
 def elements_of(scores):
-    """Of slopes, columns and niches; counts and areas, so that a group's shares are those of all its buildings together."""
-    volume, slopes, columns, niches = scores["volume"] or {}, scores["slopes"], scores["columns"] or {}, scores["niches"]
+    """Of slopes, columns, niches and curved walls; counts and areas, so that a group's shares are those of all its buildings together."""
+    volume, slopes, columns, niches, arcs = scores["volume"] or {}, scores["slopes"], scores["columns"] or {}, scores["niches"], scores["arcs"] or {}
     thick = [column for column in columns.get("list", []) if column["size_m"] >= 0.25 - TOLERANCE_M]
     deep = [niche for niche in niches["list"] if niche["depth_m"] >= 0.10 - TOLERANCE_M]
     return {"volume_error": share(volume.get("model_m3", 0.0) - volume["truth_m3"], volume["truth_m3"]) if volume else None,
@@ -176,6 +177,7 @@ def elements_of(scores):
             "columns_false": columns.get("false", 0), "floor_m2": columns.get("floor_m2", 0.0), "niches": niches["truth"],
             "columns_25cm": len(thick), "columns_25cm_found": sum(column["found"] for column in thick),
             "niches_10cm_m2": sum(niche["area_m2"] for niche in deep), "niches_10cm_near_m2": sum(niche["area_m2"] * (niche["within_2cm"] or 0.0) for niche in deep),
+            "arcs": arcs.get("truth", 0), "arcs_found": arcs.get("found", 0), "arcs_false": arcs.get("false", 0), "arcs_close": arcs.get("close", 0),
             **heights_of((scores["rooms"] or {}).get("list", [])), "niches_m2": niches["area_m2"], "niches_near_m2": niches["area_m2"] * (niches["within_2cm"] or 0.0)}
 
 

@@ -43,7 +43,8 @@ def group_rows(rows):
 
 # Of the elements: sums over a group; means; the rest are means weighted by the slopes' area.
 ELEMENT_SUMS = ("slopes_m2", "columns", "columns_found", "columns_false", "floor_m2", "niches", "niches_m2", "niches_near_m2", "heights", "heights_1mm",
-                "columns_25cm", "columns_25cm_found", "niches_10cm_m2", "niches_10cm_near_m2")
+                "columns_25cm", "columns_25cm_found", "niches_10cm_m2", "niches_10cm_near_m2",
+                "arcs", "arcs_found", "arcs_false", "arcs_close")
 GROUPS_OF_ELEMENTS = ("heights", "round")  # have figures there, but none of those things
 OF_SLOPES = ("angle_deg", "angle_p95_deg", "slopes_close")
 
@@ -63,7 +64,7 @@ def group_elements(members):
 
 def has_elements(row):
     elements, group = row.get("elements"), row.get("group", row["name"])
-    return bool(elements) and (group in GROUPS_OF_ELEMENTS or any(elements[key] > 0 for key in ("slopes_m2", "columns", "niches")))
+    return bool(elements) and (group in GROUPS_OF_ELEMENTS or any(elements[key] > 0 for key in ("slopes_m2", "columns", "niches", "arcs")))
 
 
 def element_line(row, width):
@@ -76,17 +77,20 @@ def element_line(row, width):
                      number(1000 * values["columns_false"] / values["floor_m2"] if values["floor_m2"] else None, 7, 2),
                      f"{values['niches']:>6}", percent(values["niches_near_m2"], values["niches_m2"]), percent(values["niches_10cm_near_m2"], values["niches_10cm_m2"]),
                      percent(values["heights_1mm"], values["heights"]),
-                     number(None if values["height_worst_m"] is None else 1000 * values["height_worst_m"], 8, 1)])
+                     number(None if values["height_worst_m"] is None else 1000 * values["height_worst_m"], 8, 1),
+                     f"{values['arcs_found']:>5}/{values['arcs']:<5}", f"{values['arcs_false']:>5}",
+                     percent(2 * values["arcs_found"], values["arcs"] + values["arcs_found"] + values["arcs_false"]), percent(values["arcs_close"], values["arcs_found"])])
 
 
 def element_lines(rows, groups):
-    """Slopes, columns and niches: what the first table does not show of them. Of a group the worst volume, and the rest of all together."""
+    """Slopes, columns, niches and curved walls: what the first table does not show of them. Of a group the worst volume, and the rest of all together."""
     some = [row for row in rows if has_elements(row) and shown(row)]
     if not some:
         return []
     width = max(len(row["name"]) for row in some)
     head_line = " ".join([f"{'elements':<{width}}", f"{'volume %':>8}", f"{'angle°':>7}", f"{'95 %':>7}", f"{'close%':>7}", f"{'columns':<11}", f"{'>25cm %':>7}", f"{'false':>5}",
-                          f"{'/1000m²':>7}", f"{'niches':>6}", f"{'2 cm %':>7}", f"{'>10cm %':>7}", f"{'1 mm %':>7}", f"{'worst mm':>8}"])
+                          f"{'/1000m²':>7}", f"{'niches':>6}", f"{'2 cm %':>7}", f"{'>10cm %':>7}", f"{'1 mm %':>7}", f"{'worst mm':>8}",
+                          f"{'arcs':<11}", f"{'false':>5}", f"{'F1 %':>7}", f"{'close %':>7}"])
     return ["", head_line, *(element_line(row, width) for row in some), "", *(element_line(group, width) for group in groups if has_elements(group))]
 
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/mesh/mesh_check.h"
+#include "stages/tools/evaluate/arc_scores.h"
 #include "stages/tools/evaluate/compared_axes.h"
 #include "stages/tools/evaluate/element_scores.h"
 #include "stages/tools/evaluate/explain.h"
@@ -65,6 +66,7 @@ struct Scores {
   SlopeScores slopes;
   NicheScores niches;
   std::optional<ColumnScores> columns;
+  std::optional<ArcScores> arcs;  ///< of a model whose summary says which walls are curved
   std::optional<VolumeScores> volume;
   std::vector<RoomScore> rooms;
   std::vector<std::vector<std::int32_t>> merged;  ///< groups of rooms
@@ -86,6 +88,7 @@ struct TruthDescription {
   IgnoredSpace ignored;
   std::vector<DescribedColumn> columns = {};
   std::vector<DescribedNiche> niches = {};
+  std::vector<DescribedArc> arcs = {};
 };
 
 /// Scores `model` against `truth`, both prepared() with the same axes; `described` in them, too; `cells`, if

@@ -14,9 +14,12 @@ namespace roomcut::evaluate {
 
 /// Of a truth.json, brought into `axes`: the `rooms`: name, floor, ceiling, either `polygon` ([[x, y], …]) or
 /// a point in it (`center`), and optionally `scanned`; optionally `ignore_boxes`: [[lower corner], [upper
-/// corner]] each, `columns` and `niches` (schemas/truth.md). Other members are ignored. Throws
+/// corner]] each, `columns`, `niches` and `arcs` (schemas/truth.md). Other members are ignored. Throws
 /// StageError(kMeshFormat) for what is not that.
 TruthDescription read_truth_description(const std::filesystem::path& path, const ComparedAxes& axes);
+
+/// The curved walls that a model's summary.json names, brought into `axes`. Throws StageError(kMeshFormat).
+std::vector<DescribedArc> read_curved_walls(const std::filesystem::path& path, const ComparedAxes& axes);
 
 /// The cells, labels and, if given, data terms and surfaces of one pass, brought into `axes`, whose turn
 /// becomes that of the cells: their faces stay upright and level. Errors as in cells_io.h.

@@ -17,7 +17,7 @@ using namespace roomcut::evaluate;
 StageInfo info() {
   StageInfo stage;
   stage.name = "evaluate";
-  stage.revision = 3;
+  stage.revision = 4;
   stage.summary = "Scores a model against a truth mesh";
   stage.inputs = {
       {"model", "Mesh to judge: PLY, OFF or OBJ"},
@@ -27,6 +27,7 @@ StageInfo info() {
       {"labels", "Their labels; required with --cells", true},
       {"terms", "Their data terms: adds the evidence", true},
       {"surfaces", "True floors and ceilings of these labels: where the cells end", true},
+      {"summary", "The model's summary.json: which of its walls are curved", true},
       {"cloud", "Scan that the model was made of: tells walls from doors up to the ceiling", true}};
   stage.outputs = {{"scores", "All scores"},
                    {"coloured", "The model coloured by its distance to the truth"},
@@ -77,6 +78,9 @@ void body(StageRun& run, const EvaluateParams& params) {
   const TriangleMesh model = prepared(model_file, axes);
   Scores scores = evaluate::evaluate(model, truth, described, params, cells ? &*cells : nullptr,
                                      scanned ? &*scanned : nullptr);
+  if (run.has_input("summary")) {
+    scores.arcs = score_arcs(described.arcs, read_curved_walls(run.input("summary"), axes));
+  }
   if (scores.explanation) {
     for (Explanation::InventedSpace& space : scores.explanation->invented) {
       space.centre = axes.to_file(space.centre);

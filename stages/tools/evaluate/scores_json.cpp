@@ -156,6 +156,28 @@ Json niches_json(const NicheScores& niches) {
           {"list", list}};
 }
 
+Json arcs_json(const Scores& scores) {
+  if (!scores.arcs) {
+    return nullptr;
+  }
+  const ArcScores& arcs = *scores.arcs;
+  Json list = Json::array();
+  for (const ArcScores::Arc& arc : arcs.arcs) {
+    list.push_back({{"radius_m", arc.radius_m},
+                    {"found", arc.found},
+                    {"radius_error_m", arc.found ? Json(arc.radius_error_m) : Json(nullptr)},
+                    {"centre_error_m", arc.found ? Json(arc.centre_error_m) : Json(nullptr)}});
+  }
+  return {{"truth", arcs.arcs.size()},
+          {"found", arcs.found()},
+          {"false", arcs.false_arcs},
+          {"close", arcs.close()},
+          {"precision", or_null(arcs.precision())},
+          {"recall", or_null(arcs.recall())},
+          {"f1", or_null(arcs.f1())},
+          {"list", list}};
+}
+
 Json slopes_json(const SlopeScores& slopes) {
   return {{"area_m2", slopes.area_m2},
           {"angle_median_deg", or_null(slopes.angle_median_deg)},
@@ -187,6 +209,7 @@ Json scores_json(const Scores& scores) {
           {"slopes", slopes_json(scores.slopes)},
           {"columns", columns_json(scores)},
           {"niches", niches_json(scores.niches)},
+          {"arcs", arcs_json(scores)},
           {"rooms", rooms_json(scores)},
           {"thin", thin_json(scores)},
           {"explanation", scores.explanation ? explanation_json(*scores.explanation, scores) : Json(nullptr)},

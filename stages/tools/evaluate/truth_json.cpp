@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "common/artefact/atomic_file.h"
 #include "common/artefact/json_values.h"
@@ -70,7 +72,53 @@ DescribedNiche described_niche(const Json& niche, const ComparedAxes& axes) {
   return out;
 }
 
+double azimuth(const Json& p, const Json& centre) {
+  return std::atan2(scan_metres(p.at(1)) - scan_metres(centre.at(1)),
+                    scan_metres(p.at(0)) - scan_metres(centre.at(0)));
+}
+
+DescribedArc described_arc(const Json& centre, double z0, double z1, const ComparedAxes& axes) {
+  DescribedArc out;
+  const Vec3 low = axes.from_file({scan_metres(centre.at(0)), scan_metres(centre.at(1)), z0});
+  out.centre = low.head<2>();
+  out.z0 = low.z();
+  out.z1 = low.z() + z1 - z0;
+  return out;
+}
+
+DescribedArc truth_arc(const Json& arc, const ComparedAxes& axes) {
+  const Json& centre = arc.at("center");
+  DescribedArc out = described_arc(centre, scan_metres(arc.at("z0")), scan_metres(arc.at("z1")), axes);
+  out.radius_m = scan_metres(arc.at("radius"));
+  out.from = azimuth(arc.at("from"), centre);
+  out.sweep = azimuth(arc.at("to"), centre) - out.from;
+  if (out.sweep <= 1e-9) out.sweep += 2 * std::numbers::pi;  // equal ends: a whole circle
+  return out;
+}
+
 }  // namespace
+
+std::vector<DescribedArc> read_curved_walls(const std::filesystem::path& path, const ComparedAxes& axes) {
+  constexpr double kDegree = std::numbers::pi / 180;
+  std::vector<DescribedArc> arcs;
+  try {
+    const Json root = parse_json(read_text_file(path));
+    for (const Json& wall : root.value("curved_walls", Json::array())) {
+      arcs.push_back(described_arc(wall.at("centre_m"), scan_metres(wall.at("z0_m")),
+                                   scan_metres(wall.at("z1_m")), axes));
+      arcs.back().radius_m = scan_metres(wall.at("radius_m"));
+      arcs.back().from = kDegree * wall.at("from_deg").get<double>();
+      arcs.back().sweep = kDegree * wall.at("to_deg").get<double>() - arcs.back().from;
+    }
+  } catch (const Json::exception& error) {
+    throw StageError(errors::kMeshFormat, path.string(), "not a summary: " + short_message(error),
+                     "give the summary.json of the model, or none");
+  } catch (const BadJson& error) {
+    throw StageError(errors::kMeshFormat, path.string(), std::string("not a summary: ") + error.what(),
+                     "give the summary.json of the model, or none");
+  }
+  return arcs;
+}
 
 TruthDescription read_truth_description(const std::filesystem::path& path, const ComparedAxes& axes) {
   const std::string text = read_text_file(path);
@@ -95,6 +143,9 @@ TruthDescription read_truth_description(const std::filesystem::path& path, const
     }
     for (const Json& niche : root.value("niches", Json::array())) {
       out.niches.push_back(described_niche(niche, axes));
+    }
+    for (const Json& arc : root.value("arcs", Json::array())) {
+      out.arcs.push_back(truth_arc(arc, axes));
     }
     out.ignored = IgnoredSpace(std::move(boxes), axes);
   } catch (const Json::exception& error) {
