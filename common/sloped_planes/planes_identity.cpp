@@ -180,6 +180,7 @@ std::vector<PlaneFeature> identify_planes(std::vector<DrawnPlane> drawn, const A
                                           EditReport& report) {
   drop_copied_ids(drawn, base, report);
   std::vector<PlaneFeature> planes;
+  planes.reserve(drawn.size());
   for (const DrawnPlane& d : drawn) {
     planes.push_back(plane_for(d, base, report));
   }

@@ -17,7 +17,7 @@ namespace roomcut {
 namespace {
 
 Vec2 point_from(const Json& x, const Json& y, const FilePlan& plan) {
-  const Vec2 local = plan.to_local({scan_metres(x), scan_metres(y)});
+  Vec2 local = plan.to_local({scan_metres(x), scan_metres(y)});
   if (!limits::is_local(local.x()) || !limits::is_local(local.y())) {
     throw BadJson("a point lies impossibly far from the frame's origin");
   }
@@ -32,7 +32,7 @@ std::vector<Vec2> outline_from(const Json& geometry, const FilePlan& plan) {
   for (const Json& point : geometry.at("coordinates").at(0)) {
     corners.push_back(point_from(point.at(0), point.at(1), plan));
   }
-  const std::vector<Vec2> hull = convex_hull(corners);
+  std::vector<Vec2> hull = convex_hull(corners);
   if (hull.size() < 3 || hull.size() + 1 != corners.size()) {
     throw BadJson("the outline is no convex ring");
   }
