@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <compare>
+#include <tuple>
 
 #include "common/wall_lines/edit_document.h"
 
@@ -19,7 +19,9 @@ bool lies_on(const Vec2& a, const Vec2& b, const WallLine& line) {
 struct Fit {
   std::size_t unmoved = 0;  ///< lines that lie on one of the base
   std::size_t inside = 0;   ///< lines that lie in the scan
-  auto operator<=>(const Fit&) const = default;
+  bool operator>(const Fit& other) const {
+    return std::tie(unmoved, inside) > std::tie(other.unmoved, other.inside);
+  }
 };
 
 Fit fit_of(const std::vector<DrawnLine>& drawn, const EditPlan& plan, const WallLines& base) {

@@ -23,7 +23,7 @@ constexpr double kMostDegrees = 1e6;  ///< of a deviation: of a line that is not
 constexpr int kMostLevels = 1'000'000;
 
 Vec2 point_from(const Json& x, const Json& y, const FilePlan& plan) {
-  const Vec2 local = plan.to_local({scan_metres(x), scan_metres(y)});
+  Vec2 local = plan.to_local({scan_metres(x), scan_metres(y)});
   if (!limits::is_local(local.x()) || !limits::is_local(local.y())) {
     throw BadJson("a point lies impossibly far from the frame's origin");
   }

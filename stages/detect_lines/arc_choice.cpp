@@ -48,6 +48,7 @@ class LineSquares {
 std::vector<ArcBin> without_outliers(std::vector<ArcBin> bins) {
   if (bins.empty()) return bins;
   std::vector<double> off;
+  off.reserve(bins.size());
   for (const ArcBin& bin : bins) off.push_back(std::abs(bin.distance_m));
   std::sort(off.begin(), off.end());
   const double limit = std::max(kFarOff * off[off.size() / 2], off[off.size() - 1 - off.size() / 10]);

@@ -85,14 +85,15 @@ class ArcSearch {
 
  private:
   std::optional<Arc> arc_at(std::uint32_t seed) {
-    std::optional<Arc> found;
+    std::size_t before = 0;
     for (const double window_m : kWindows_m) {
       CellIndices chain = squares_.chain(seed, window_m);
       std::erase_if(chain, [&](std::uint32_t i) { return taken_[i]; });
       for (const std::uint32_t i : chain) {
         if ((position(cells_, i) - position(cells_, seed)).norm() < kSeeds_m) tried_[i] = true;
       }
-      if (chain.size() < 6) return std::nullopt;
+      if (chain.size() < 6 || chain.size() == before) return std::nullopt;  // it goes on no farther
+      before = chain.size();
       Bend bend{position(cells_, seed), Line2{cells_.theta[seed], 0}.normal(), 0};
       bend = fit_bend(cells_, chain, fit_bend(cells_, chain, bend, cauchy_m_, true), cauchy_m_);
       const double sagitta = 0.5 * std::abs(bend.curvature) * window_m * window_m;

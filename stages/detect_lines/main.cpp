@@ -25,7 +25,7 @@ void report(StageRun& run, const DetectLinesResult& result) {
 int main(int argc, char** argv) {
   DetectLinesParams params;
   const StageInfo info{"detect_lines",
-                       13,
+                       14,
                        "Finds the wall lines of all wall slices with a Hough transform.",
                        {{"slices", "levels and wall slices, from slice"}},
                        {{"lines-out", "wall lines, to be edited or taken as they are"},

@@ -114,7 +114,8 @@ class Elements(unittest.TestCase):
 
     PLAIN = {"volume_error": 0.001, "slopes_m2": 0.0, "angle_deg": None, "angle_p95_deg": None, "slopes_close": None, "columns": 0, "columns_found": 0,
              "columns_false": 0, "floor_m2": 500.0, "niches": 0, "niches_m2": 0.0, "niches_near_m2": 0.0, "heights": 8, "heights_1mm": 6, "height_worst_m": 0.0125,
-             "columns_25cm": 0, "columns_25cm_found": 0, "niches_10cm_m2": 0.0, "niches_10cm_near_m2": 0.0}
+             "columns_25cm": 0, "columns_25cm_found": 0, "niches_10cm_m2": 0.0, "niches_10cm_near_m2": 0.0,
+             "arcs": 0, "arcs_found": 0, "arcs_false": 0, "arcs_close": 0}
 
     def test_a_group_weighs_slopes_by_their_area_and_names_its_worst_volume(self):
         members = [row("a", elements={**self.PLAIN, "slopes_m2": 30.0, "angle_deg": 0.1, "angle_p95_deg": 1.0, "slopes_close": 1.0, "volume_error": -0.02}),
@@ -125,12 +126,13 @@ class Elements(unittest.TestCase):
         self.assertEqual(group["elements"]["volume_error"], -0.02)
 
     def test_the_table_has_their_lines_only_where_there_are_any(self):
-        found = row("a", elements={**self.PLAIN, "columns": 4, "columns_found": 3, "columns_false": 1, "columns_25cm": 2, "columns_25cm_found": 2, "niches_10cm_m2": 2.0, "niches_10cm_near_m2": 1.8, "niches": 2, "niches_m2": 4.0, "niches_near_m2": 3.0})
+        found = row("a", elements={**self.PLAIN, "columns": 4, "columns_found": 3, "columns_false": 1, "columns_25cm": 2, "columns_25cm_found": 2, "niches_10cm_m2": 2.0, "niches_10cm_near_m2": 1.8, "niches": 2, "niches_m2": 4.0, "niches_near_m2": 3.0,
+                                    "arcs": 4, "arcs_found": 3, "arcs_false": 1, "arcs_close": 2})
         rows = [found, row("plain", elements=self.PLAIN)]
         text = table.table(rows, table.group_rows(rows)).split("elements ")[1]
         self.assertNotIn("plain", text)
         line, = [line for line in text.splitlines() if line.startswith("a ")]
-        self.assertEqual(line.split(), ["a", "0.100", "–", "–", "–", "3/4", "100.0", "1", "2.00", "2", "75.0", "90.0", "75.0", "12.5"])
+        self.assertEqual(line.split(), ["a", "0.100", "–", "–", "–", "3/4", "100.0", "1", "2.00", "2", "75.0", "90.0", "75.0", "12.5", "3/4", "1", "75.0", "66.7"])
         self.assertNotIn("elements", table.table(rows[1:], table.group_rows(rows[1:])))
 
 
