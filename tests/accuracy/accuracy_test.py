@@ -278,10 +278,13 @@ class Run(unittest.TestCase):
             with open(os.path.join(folder, "random_house_101", "evaluate", "scores.json"), encoding="utf-8") as text:
                 scores = json.load(text)
             with open(os.path.join(folder, "random_house_101", "summary.json"), encoding="utf-8") as text:
-                openings = json.load(text)["openings"]
-            empty = scores["explanation"]["empty_m3"] + sum(opening["volume_m3"] for opening in openings)
-            self.assertGreater(empty, scores["explanation"]["empty_m3"])  # doors were cut
+                summary = json.load(text)
+            cut = sum(opening["volume_m3"] for opening in summary["openings"])
+            self.assertGreater(cut, 0)  # doors
+            empty = summary["mesh"]["cells_m3"]
             self.assertAlmostEqual(scores["mesh"]["volume_m3"], empty, delta=1e-6 * empty)
+            # Floors and ceilings lie at their own heights, not at their levels: by a centimetre or so of 2.5 m.
+            self.assertAlmostEqual(scores["explanation"]["empty_m3"] + cut, empty, delta=0.005 * empty)
 
     def test_a_preset_runs_in_a_folder_of_its_own_and_stands_beside_the_defaults(self):
         with tempfile.TemporaryDirectory() as folder:
