@@ -7,6 +7,7 @@
 #include "common/slices/slices_io.h"
 #include "stages/slice/slice.h"
 #include "stages/slice/unit_question.h"
+#include "stages/slice/vault_warning.h"
 
 namespace {
 
@@ -36,6 +37,7 @@ void report(StageRun& run, const SliceResult& result) {
              " m without a wall, as at glass or an open side; what was seen beyond may be taken for a room");
   }
   if (const std::string question = unit_question(slices); !question.empty()) run.warn(question);
+  if (const std::string vault = vault_warning(slices); !vault.empty()) run.warn(vault);
 }
 
 }  // namespace
