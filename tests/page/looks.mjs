@@ -264,9 +264,11 @@ export async function agreesWithTheRun(page, work) {
       return storeys.rooms.map(({ storey, plan }) => ({ storey, area: [...plan].reduce((sum, face) => sum + complex.areas[face], 0) }));
     });
     assert.equal(rooms.length, summary.rooms.length);
+    // Creases of slopes move in the model to where the fitted planes meet, and with them what lies over and under them; in the cells they stay.
+    const slopes = summary.rooms.some((room) => room.highest_ceiling_z_m - room.lowest_ceiling_z_m > 0.01);
     summary.rooms.forEach((room, i) => {
       assert.equal(rooms[i].storey, room.storey);
-      assert.ok(Math.abs(rooms[i].area - room.area_m2) < 1e-3, `room ${room.room}`);
+      assert.ok(Math.abs(rooms[i].area - room.area_m2) < (slopes ? 0.02 * room.area_m2 : 1e-3), `room ${room.room}`);
     });
   });
   await step("the tables hold every room, every stage, and the checks of the mesh", async () => {
