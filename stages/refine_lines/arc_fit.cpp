@@ -94,6 +94,7 @@ struct Span {
 Span span_of(const std::vector<LineItem>& chords, const Vec2& centre) {
   constexpr double kTurn = 2 * std::numbers::pi;
   std::vector<double> middles;
+  middles.reserve(chords.size());
   for (const LineItem& chord : chords) middles.push_back(azimuth(chord.wall.centre() - centre));
   std::sort(middles.begin(), middles.end());
   double from = middles.front(), gap = 0;
@@ -185,7 +186,7 @@ std::vector<WallLine> refine_arc(const std::vector<LineItem>& chords, const Fram
     std::copy_if(chord.observations.begin(), chord.observations.end(), std::back_inserter(observations),
                  [&](const Observation& o) { return span.off(o.point - was.centre) <= kMiddle * span.half; });
     for (const Vec2& end : {chord.wall.a, chord.wall.b}) {
-      ends.push_back(was.centre + was.radius_m * (end - was.centre).normalized());
+      ends.emplace_back(was.centre + was.radius_m * (end - was.centre).normalized());
     }
   }
   std::vector<WallLine> refined;
