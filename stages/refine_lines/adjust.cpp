@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "stages/refine_lines/solver_options.h"
+
 namespace roomcut::refine_lines {
 
 namespace {
@@ -125,16 +127,8 @@ bool adjust(Adjustment& adjustment) {
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     add_line(adjustment, i, problem, blocks[i], angles);
   }
-  ceres::Solver::Options options;
-  options.num_threads = 1;
-  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  options.max_num_iterations = 100;
-  options.function_tolerance = 1e-12;
-  options.parameter_tolerance = 1e-12;
-  options.gradient_tolerance = 1e-12;
-  options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
+  ceres::Solve(solver_options(ceres::SPARSE_NORMAL_CHOLESKY), &problem, &summary);
   if (!summary.IsSolutionUsable()) {
     return false;
   }

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "common/wall_lines/wall_arc.h"
+#include "stages/refine_lines/solver_options.h"
 
 namespace roomcut::refine_lines {
 
@@ -45,16 +46,8 @@ void add(ceres::Problem& problem, const OnCircle& residual, ceres::LossFunction*
 }
 
 bool solve(ceres::Problem& problem) {
-  ceres::Solver::Options options;
-  options.num_threads = 1;
-  options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = 100;
-  options.function_tolerance = 1e-12;
-  options.parameter_tolerance = 1e-12;
-  options.gradient_tolerance = 1e-12;
-  options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
+  ceres::Solve(solver_options(ceres::DENSE_QR), &problem, &summary);
   return summary.IsSolutionUsable();
 }
 

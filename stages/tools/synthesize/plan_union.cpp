@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages/tools/synthesize/plan_union.h"
 
-#include <CGAL/Constrained_Delaunay_triangulation_2.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Triangulation_face_base_with_info_2.h>
-#include <CGAL/Triangulation_vertex_base_with_info_2.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -15,6 +10,7 @@
 #include "common/errors/codes.h"
 #include "stages/tools/synthesize/plan.h"
 #include "stages/tools/synthesize/plan_graph.h"
+#include "stages/tools/synthesize/plan_triangulation.h"
 #include "stages/tools/synthesize/room_heights.h"
 #include "stages/tools/synthesize/scene_limits.h"
 
@@ -22,44 +18,8 @@ namespace roomcut::synthesize {
 
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::int32_t, Kernel>;
-using FaceBase =
-    CGAL::Triangulation_face_base_with_info_2<std::int32_t, Kernel,
-                                              CGAL::Constrained_triangulation_face_base_2<Kernel>>;
-using Cdt =
-    CGAL::Constrained_Delaunay_triangulation_2<Kernel,
-                                               CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
-                                               CGAL::No_constraint_intersection_requiring_constructions_tag>;
-
 constexpr double kTolerance = 1e-6;  // corners of the plan that are closer are one [m]
 constexpr double kStraight = 1e-9;   // a corner that is off a straight wall by less is dropped [m]
-constexpr std::int32_t kUnset = -1;
-
-/// Gives `region` to all triangles that are reached from `seed` without crossing a constraint, and returns
-/// the largest.
-Cdt::Face_handle flood(const Cdt& cdt, Cdt::Face_handle seed, std::int32_t region) {
-  std::vector<Cdt::Face_handle> todo{seed};
-  Cdt::Face_handle largest = seed;
-  double largest_area = 0;
-  seed->info() = region;
-  while (!todo.empty()) {
-    const auto face = todo.back();
-    todo.pop_back();
-    const double area = cdt.is_infinite(face) ? 0 : cdt.triangle(face).area();
-    if (area > largest_area) {
-      largest_area = area;
-      largest = face;
-    }
-    for (int i = 0; i < 3; ++i) {
-      const auto next = face->neighbor(i);
-      if (next->info() != kUnset || cdt.is_constrained({face, i})) continue;
-      next->info() = region;
-      todo.push_back(next);
-    }
-  }
-  return largest;
-}
 
 /// Whether b lies on the line from a to c.
 bool is_straight(const Vec2& a, const Vec2& b, const Vec2& c) {
